@@ -139,7 +139,19 @@ Setup make_changing_setup(const Rider& rider) {
   return setup;
 }
 
-/// Every rider, on plain knots and with fine ones; one of each way to ride where friction changes.
+/// The same with fine knots on a core of three spans, whose curvature jumps where they meet.
+Setup make_parted_setup(const Rider& rider, PlacesFrom from = PlacesFrom::start) {
+  Setup setup = make_setup(rider, from);
+  setup.mesh.knots = {0.0, 0.1, 0.25, 0.25, 0.5, 0.8, 0.8, 1.0};
+  setup.mesh.borders = {0.25, 0.8};
+  setup.mesh.fine = {0.15, 0.2, 0.6, 0.7};
+  setup.mesh.fine_turns = {0.2, -0.3, 0.15, 0.1};
+  setup.z = {1.1, 0.3, 1.1, 0.9, 1.3, 0.7, 1.2, 0.8, 0.4, 0.9, 1.05, 0.8};
+  return setup;
+}
+
+/// Every rider, on plain knots and with fine ones; one of each way to ride where friction changes; on spans all whose
+/// ride does not know how far it has come.
 std::vector<Setup> setups() {
   std::vector<Setup> all;
   for (const Rider& rider : riders()) {
@@ -148,8 +160,10 @@ std::vector<Setup> setups() {
     const bool one_of_each =
         rider.name == "point" || rider.name == "ball from rest" || rider.name == "stream";
     if (one_of_each) all.push_back(make_changing_setup(rider));
+    if (!rider.law || rider.law->kind() != "stream") all.push_back(make_parted_setup(rider));
   }
   all.push_back(make_setup(riders()[1], PlacesFrom::finish));
+  all.push_back(make_parted_setup(riders()[1], PlacesFrom::finish));
   return all;
 }
 
@@ -163,12 +177,14 @@ struct RideEnd {
 /// The ride from rest by its own quadrature: w' = 2 (sin - mu cos) e^(-2 mu zeta + 2 k s), in sigma = r^2,
 /// panel by panel; analytic in the unknowns, so that a tiny imaginary step gives the derivative to every
 /// digit. Where friction changes the core keeps its length up to the last change in it, and of the straight behind it
-/// only the ends move.
+/// only the ends move. Where two knots lie at one place another span begins, which has its own length.
 RideEnd ridden(const Setup& setup, const std::vector<Complex>& z, const Ride& ride) {
   using Gauss = boost::math::quadrature::gauss<long double, 20>;
   const Mesh& mesh = setup.mesh;
   const std::size_t knots = mesh.knots.size();
-  const Complex length = z[1 + knots];
+  std::size_t span = 0;
+  Complex length = z[1 + knots];
+  Complex span_begin;  // so far, but for what the sigma of the span adds
   const long double fixed = mesh.change_knots.empty() ? 0.0L : mesh.change_knots.back().sigma;
   const long double laid = mesh.core_length;
   long double mu = ride.friction;
@@ -212,19 +228,25 @@ RideEnd ridden(const Setup& setup, const std::vector<Complex>& z, const Ride& ri
     if (zone < mesh.change_knots.size() && mesh.change_knots[zone].sigma == mesh.knots[i])
       change_friction(zeta_at_knot, laid * from);
     const long double to = mesh.knots[i + 1];
+    if (from == to) {
+      const Complex next = z[1 + knots + ++span];
+      span_begin += (length - next) * from;
+      length = next;
+      continue;
+    }
     const auto zeta = [&](long double sigma) {
       const long double along = sigma - from;
       return zeta_at_knot - z[1 + i] * along - (z[2 + i] - z[1 + i]) * (along * along / (2.0L * (to - from)));
     };
     const auto s = [&](long double sigma) {
       const long double held = std::min(sigma, fixed);
-      return laid * held + length * (sigma - held);
+      return span_begin + laid * held + length * (sigma - held);
     };
     stretch(from, to, zeta, s, to <= fixed ? Complex(laid) : length);
     zeta_end = zeta(to);
     zeta_at_knot = zeta_end;
   }
-  const Complex core = laid * fixed + length * (1.0L - fixed);
+  const Complex core = span_begin + laid * fixed + length * (1.0L - fixed);
   const Complex end = core + static_cast<long double>(mesh.lead_out);
   const auto straight = [&](const Complex& a, const Complex& b) {
     stretch(
@@ -251,7 +273,10 @@ TEST_CASE("time and exit speed carry the derivatives that complex steps in long 
   Setup changing = make_changing_setup(riders().front());
   changing.mesh.fine.clear();
   changing.mesh.fine_turns.clear();
-  for (const Setup& setup : {make_setup(riders().front()), changing}) {
+  Setup parted = make_parted_setup(riders().front());
+  parted.mesh.fine.clear();
+  parted.mesh.fine_turns.clear();
+  for (const Setup& setup : {make_setup(riders().front()), changing, parted}) {
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
     const State state = rows.state(setup.z, true);

@@ -132,8 +132,7 @@ class Distance final : public Measure {
 
   [[nodiscard]] double place(const RowAt& at) const override {
     if (!at.row.foot) return Measure::place(at);
-    const double length = at.state.z[at.track.layout().length()];
-    return foot_of(at, obstacle_of(at).corner(at.row.place)).at.arc_length(length);
+    return at.track.arc_length(at.state.z, foot_of(at, obstacle_of(at).corner(at.row.place)).at);
   }
   [[nodiscard]] bool holds_along() const override { return true; }
 
@@ -164,7 +163,7 @@ class Waypoint final : public Measure {
   void add_rows(const RowAt&, std::vector<Row>&) const override {}
   void set_exact_row(Row& row) const override { row.foot = true; }
   [[nodiscard]] double place(const RowAt& at) const override {
-    return foot(at).at.arc_length(at.state.z[at.track.layout().length()]);
+    return at.track.arc_length(at.state.z, foot(at).at);
   }
 
  private:

@@ -212,10 +212,9 @@ Foot EnvelopeRows::exact_foot(const State& state, Vec2 corner) const {
   constexpr double kLeastSpread = 0.05;  // taste
   Foot foot = track_.foot(state.z, state.shape, corner.x, corner.y);
   if (foot.end) return foot;
-  const Layout& layout = track_.layout();
-  const double length = state.z[layout.length()];
+  const std::vector<Station>& stations = track_.stations();
   const double gap =
-      track_.stations()[foot.towards].arc_length(length) - track_.stations()[foot.base].arc_length(length);
+      track_.arc_length(state.z, stations[foot.towards]) - track_.arc_length(state.z, stations[foot.base]);
   for (int step = 0; step < kSteps; ++step) {
     const Vec2 way = corner - Vec2{foot.x, foot.y};
     const double rest = dot(way, {foot.cos, foot.sin});

@@ -71,12 +71,12 @@ void Transcription::add_derivatives(const Vector& z, const Shape& shape, const R
 // Angles count from the entry and arc lengths from the start of each panel, so that the exponents stay small; v
 // carries over from panel to panel.
 void Transcription::set_growth(const Vector& z, const Shape& shape, const Ride& ride, Flow& out) const {
-  const double length = z[layout_.length()];
   Vector exponents(stations_.size(), 0.0);
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const std::size_t start = start_station(p);
     const double mu = ride.friction_in(panel.zone);
+    const double length = z[layout_.length(panel.span)];
     for (std::size_t at = panel.first; at <= panel.first + kNodes; ++at) {
       const double s = stations_[at].arc_length(length) - stations_[start].arc_length(length);
       exponents[at] = 2.0 * mu * (shape.zeta[at] - shape.zeta[start]) - 2.0 * ride.drag * s;
@@ -117,9 +117,11 @@ GLISSADE_WIDE_VARIANT void Transcription::flow_through(const Vector& z, const Sh
   const PanelRule& rule = panel_rule();
   const Panel& panel = panels_[p];
   const std::size_t start = start_station(p);
-  const double length = z[layout_.length()];
   const double mu = ride.friction_in(panel.zone);
-  const double scale = panel.scale(length);
+  const double scale = scale_of(panel, z);
+  // A span counts from where it begins.
+  const bool goes_on = stations_[start].span == panel.span;
+  const double by_length_at_start = goes_on ? stations_[start].by_length : 0.0;
   const LocalRow dz_start = dzeta_at_start(p);
   Four turning_at_start;
   load(turning_at_start, &dz_start[kZeta]);
@@ -137,7 +139,7 @@ GLISSADE_WIDE_VARIANT void Transcription::flow_through(const Vector& z, const Sh
     Four dz;
     load(dz, &local_dzeta_[at][kZeta]);
     df[q] = scale * (by_zeta * dz + by_start * turning_at_start);
-    const double ds_dlength = stations_[at].by_length - stations_[start].by_length;
+    const double ds_dlength = stations_[at].by_length - by_length_at_start;
     df[q][kLength - kZeta] = panel.by_length * f[q] + scale * f[q] * 2.0 * ride.drag * ds_dlength;
   }
   const LocalRow dv_start = by_time != nullptr ? at_start(p, out.dv) : LocalRow{};
@@ -158,7 +160,7 @@ GLISSADE_WIDE_VARIANT void Transcription::flow_through(const Vector& z, const Sh
       sum += turning * (dz - turning_at_start);  // nothing by the length
       dv[kOwn] = dv_start[kOwn] * out.growth[at];
       store(sum, &dv[kZeta]);
-      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].by_length - stations_[start].by_length);
+      dv[kLength] -= 2.0 * ride.drag * out.v[at] * (stations_[at].by_length - by_length_at_start);
     }
     if (q == kNodes) continue;
     const Slowness slow = slowness(out.v[at], slowest(ride, at));

@@ -59,13 +59,12 @@ GLISSADE_WIDE_VARIANT void Transcription::add_terms(LocalMatrix& matrix, const S
 void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const StationWeights& weights,
                                     std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
   double later_x = 0.0;
   double later_y = 0.0;
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
     LocalMatrix& part = parts[panel.section];
-    const double scale = panel.scale(length);
+    const double scale = scale_of(panel, z);
     const std::size_t end = panel.first + kNodes;
     later_x += weights.x[end];
     later_y += weights.y[end];
@@ -89,38 +88,39 @@ void Transcription::add_shape_parts(const Vector& z, const Shape& shape, const S
   }
 }
 
-void Transcription::add_exponent(StationTerms& terms, double mu, const Ride& ride, const Flow& flow,
-                                 std::size_t station, double by_v) const {
+void Transcription::add_exponent(StationTerms& terms, double mu, const Ride& ride, double v, double by_length,
+                                 double by_v) {
   terms.v_zeta += 2.0 * mu * by_v;
-  terms.zeta_zeta -= 4.0 * mu * mu * by_v * flow.v[station];
+  terms.zeta_zeta -= 4.0 * mu * mu * by_v * v;
   if (ride.drag == 0.0) return;
-  const double reach = 2.0 * ride.drag * stations_[station].by_length;
+  const double reach = 2.0 * ride.drag * by_length;
   terms.v_length -= reach * by_v;
-  terms.zeta_length += 2.0 * mu * reach * by_v * flow.v[station];
-  terms.length_length -= reach * reach * by_v * flow.v[station];
+  terms.zeta_length += 2.0 * mu * reach * by_v * v;
+  terms.length_length -= reach * reach * by_v * v;
 }
 
 // v = e^phi w with phi = 2 mu zeta - 2 k s, w' = drive e^-phi. phi is linear in the unknowns:
-// d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k ds/dL e_L. Where friction changes v goes
-// on, and w = v e^-phi begins anew.
+// d2v = e^phi d2w + dv dphi + dphi dv - v dphi dphi, dphi = 2 mu dzeta - 2 k ds/dL e_L. Where friction changes, and
+// where another span begins, v goes on, and w = v e^-phi begins anew.
 GLISSADE_WIDE_VARIANT void Transcription::add_flow_parts(const Vector& z, const Shape& shape,
                                                          const Ride& ride, const Flow& flow,
                                                          const StationWeights& weights, std::size_t index,
                                                          std::vector<LocalMatrix>& parts) const {
   const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
   const double drag = ride.drag;
   double later = 0.0;  // dL/dv at the end of the panel, of everything behind it
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
     LocalMatrix& part = parts[panel.section];
-    const double scale = panel.scale(length);
+    const double scale = scale_of(panel, z);
     const double mu = ride.friction_in(panel.zone);
     double by_v_at_end = 0.0;
     std::array<StationTerms, kNodes + 1> terms{};
-    if (p + 1 < panels_.size() && panels_[p + 1].zone != panel.zone) {
-      const double behind = ride.friction_in(panels_[p + 1].zone);
-      add_exponent(terms[kNodes], behind, ride, flow, panel.first + kNodes, -later);
+    const Panel& next = panels_[std::min(p + 1, panels_.size() - 1)];
+    if (next.zone != panel.zone || next.span != panel.span) {
+      const std::size_t end = panel.first + kNodes;
+      const double by_length = next.span == panel.span ? stations_[end].by_length : 0.0;
+      add_exponent(terms[kNodes], ride.friction_in(next.zone), ride, flow.v[end], by_length, -later);
       by_v_at_end = std::exchange(later, 0.0);
     }
     double by_w[kNodes + 1] = {};  // w as counted from the start of the panel
@@ -135,7 +135,7 @@ GLISSADE_WIDE_VARIANT void Transcription::add_flow_parts(const Vector& z, const 
         terms[q].v_length += panel.by_length * timed * slow.first;
       }
       if (by_v == 0.0) continue;
-      add_exponent(terms[q], mu, ride, flow, at, by_v);
+      add_exponent(terms[q], mu, ride, flow.v[at], stations_[at].by_length, by_v);
       by_w[q] = by_v * flow.growth[at];
     }
     later = later * flow.growth[panel.first + kNodes] + by_w[kNodes];
@@ -173,12 +173,32 @@ class Transcription::LaterSections {
     for (Vector& cross : cross_) cross.assign(unknowns, 0.0);
   }
 
+  /// The turning rates, and the lengths of spans, that sections from one on depend on.
+  struct KnownBehind {
+    std::size_t turn = 0;      ///< turning rates from here ...
+    std::size_t turn_end = 0;  ///< ... to here,
+    std::size_t length = 0;    ///< and lengths from here on ...
+    std::size_t end = 0;       ///< ... to here
+    template <class Visitor>
+    void visit(const Visitor& visitor) const {
+      for (std::size_t j = turn; j < turn_end; ++j) visitor(j);
+      for (std::size_t j = length; j < end; ++j) visitor(j);
+    }
+  };
+
+  /// The sections so far begin a span: what they know of its length is told of that unknown.
+  void end_span(std::size_t length, const KnownBehind& known) {
+    Vector& with_length = cross_[2];
+    known.visit([&](std::size_t j) { add(length, j, std::exchange(with_length[j], 0.0)); });
+    upper_(length, length) += std::exchange(form_[2][2], 0.0);
+    for (std::size_t i = 0; i < 2; ++i) cross_[i][length] += std::exchange(form_[2][i], 0.0);
+  }
+
   /// What is told over the vectors of a section is told over those of the section before it.
   /// @param own,zeta    where the section ends, over the vectors of the section before
   /// @param first       the unknown of the turning rate at the first knot of the section before
-  /// @param behind,end  unknowns [behind, end) are the turning rates that the sections so far depend on
-  void tell_by(const LocalRow& own, const LocalRow& zeta, std::size_t first, std::size_t behind,
-               std::size_t end) {
+  /// @param known  the unknowns that the sections so far depend on
+  void tell_by(const LocalRow& own, const LocalRow& zeta, std::size_t first, const KnownBehind& known) {
     const std::array<LocalRow, 3> by = {own, zeta, kOfLength};
     LocalMatrix before{};
     for (std::size_t i = 0; i < kShared; ++i) {
@@ -189,7 +209,7 @@ class Transcription::LaterSections {
         }
       }
     }
-    for (std::size_t j = behind; j < end; ++j) {
+    known.visit([&](std::size_t j) {
       const double of_own = cross_[0][j];
       const double of_zeta = cross_[1][j];
       const double to_first = of_own * own[kFirst] + of_zeta * zeta[kFirst];
@@ -199,7 +219,7 @@ class Transcription::LaterSections {
       cross_[2][j] += of_own * own[kLength] + of_zeta * zeta[kLength];
       add(first, j, to_first);
       add(first + 1, j, to_second);
-    }
+    });
     form_ = {};
     add_section(before, first);
   }
@@ -262,7 +282,14 @@ void Transcription::expand(const std::vector<LocalMatrix>& parts, const Derivati
     const std::size_t first = layout_.turn(sections_[s].piece);
     if (s + 1 < sections_.size()) {
       const LocalRow by_own = own != nullptr ? own->local[ends[s]] : LocalRow{};
-      later.tell_by(by_own, local_dzeta_[ends[s]], first, layout_.turn(sections_[s + 1].piece), end);
+      const Section& behind = sections_[s + 1];
+      const bool is_other = behind.span != sections_[s].span;
+      LaterSections::KnownBehind known{layout_.turn(behind.piece), end, layout_.length(behind.span + 1), n};
+      if (is_other) {
+        later.end_span(layout_.length(behind.span), known);
+        --known.length;
+      }
+      later.tell_by(by_own, local_dzeta_[ends[s]], first, known);
     }
     later.add_section(parts[s], first);
   }

@@ -233,16 +233,15 @@ void Transcription::enter(const Shape& shape, const Ride& ride, Flow& out) const
 void Transcription::law_flow_through(const Vector& z, const Shape& shape, const Ride& ride, std::size_t p,
                                      Flow& out, LocalRow* by_time) const {
   const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
   const Panel& panel = panels_[p];
   const std::size_t start = start_station(p);
-  const double scale = panel.scale(length);
+  const double scale = scale_of(panel, z);
   const double mu = ride.friction_in(panel.zone);
   std::array<Place, kNodes> places;
   NodeValues ds{};
   for (std::size_t k = 0; k < kNodes; ++k) {
     const std::size_t at = panel.first + k;
-    places[k] = {mu, shape.sin[at], shape.cos[at], shape.curvature[at], stations_[at].arc_length(length)};
+    places[k] = {mu, shape.sin[at], shape.cos[at], shape.curvature[at], arc_length(z, stations_[at])};
     ds[k] = scale * panel.ds[k];
   }
   const Solved solved = solve(ride, places, ds, out.v[start]);
@@ -291,16 +290,14 @@ Transcription::LawPanel Transcription::law_panel(const Vector& z, const Shape& s
                                                  const Flow& flow, const StationWeights& weights,
                                                  std::size_t index, std::size_t p, double by_end) const {
   const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
   const Panel& panel = panels_[p];
-  const double scale = panel.scale(length);
+  const double scale = scale_of(panel, z);
   const double mu = ride.friction_in(panel.zone);
   LawPanel law;
   NodeValues by_v{};
   for (std::size_t k = 0; k < kNodes; ++k) {
     const std::size_t at = panel.first + k;
-    const Place place{mu, shape.sin[at], shape.cos[at], shape.curvature[at],
-                      stations_[at].arc_length(length)};
+    const Place place{mu, shape.sin[at], shape.cos[at], shape.curvature[at], arc_length(z, stations_[at])};
     law.slopes[k] = slope_at(ride, place, flow.v[at]);
     law.slow[k] = pace_of(ride, flow.v[at], slowest(ride, at));
     law.factor[k] = scale * panel.ds[k] * law.slopes[k].v;
@@ -327,7 +324,7 @@ void Transcription::add_law_node(const Vector& z, const Shape& shape, const Ride
   const Slowness& slow = law.slow[k];
   const LocalRow& dv = flow.dv.local[at];
   const LocalRow& dz = local_dzeta_[at];
-  const double scale = panel.scale(z[layout_.length()]);
+  const double scale = scale_of(panel, z);
   const double full = theta * scale;
   const double timed = law.timed[k];
   add_square(part, full * slope.zeta_zeta, dz);

@@ -77,6 +77,7 @@ class Measure {
   static const Measure* const finish_coordinate;  ///< whichever is free
   static const Measure* const distance;           ///< from an obstacle, positive on its free side
   static const Measure* const waypoint;           ///< distance of the track from a point
+  static const Measure* const span_length;        ///< of each span, over what it began with
   static const Measure* const arrival;  ///< squared speed over that of free fall through the arc length
 };
 

@@ -21,13 +21,15 @@ double core_length(const RowAt& at) {
   return at.track.core_length(at.state.z);
 }
 
-/// Length of the core over sigma within a piece, and its derivative by z[Layout::length()].
+/// Length of the core over sigma within a piece, and its derivative by the unknown that it is.
 struct Stretch {
   double length = 1.0;
   double first = 1.0;
+  std::size_t unknown = 0;
 };
 Stretch stretch(const RowAt& at, std::size_t piece) {
-  return {at.track.stretch(at.state.z, piece), at.track.stretches(piece) ? 1.0 : 0.0};
+  return {at.track.stretch(at.state.z, piece), at.track.stretches(piece) ? 1.0 : 0.0,
+          at.track.length_of(piece)};
 }
 
 /// Whether a limit holds at a station: one for a friction along part of the track holds at that part's ends, too.
@@ -68,10 +70,11 @@ void add_pair(Matrix& hessian, std::size_t i, std::size_t j, double value) {
 }
 
 /// Second derivative of c/L, c = first z_i + second z_(i+1).
-void add_curvature_terms(Matrix& hessian, std::size_t i, double first, double second, std::size_t at_length,
-                         double curvature, const Stretch& stretch, double factor) {
+void add_curvature_terms(Matrix& hessian, std::size_t i, double first, double second, double curvature,
+                         const Stretch& stretch, double factor) {
   if (stretch.first == 0.0) return;
   const double length = stretch.length;
+  const std::size_t at_length = stretch.unknown;
   add_pair(hessian, i, at_length, -factor * first / (length * length));
   if (second != 0.0) add_pair(hessian, i + 1, at_length, -factor * second / (length * length));
   hessian(at_length, at_length) += 2.0 * factor * curvature / (length * length);
@@ -109,17 +112,17 @@ class Curvature final : public Measure {
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
     const Bend here = bend(at);
-    const auto [length, first] = stretch(at, here.piece);
+    const auto [length, first, unknown] = stretch(at, here.piece);
     out[layout.turn(here.piece)] = (1.0 - here.share) / length;
     out[layout.turn(here.piece + 1)] = here.share / length;
-    out[layout.length()] = -first * here.turn / (length * length);
+    out[unknown] = -first * here.turn / (length * length);
   }
 
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Layout& layout = at.track.layout();
     const Bend here = bend(at);
     const Stretch along = stretch(at, here.piece);
-    add_curvature_terms(hessian, layout.turn(here.piece), 1.0 - here.share, here.share, layout.length(),
+    add_curvature_terms(hessian, layout.turn(here.piece), 1.0 - here.share, here.share,
                         here.turn / along.length, along, factor);
   }
 
@@ -150,8 +153,10 @@ class Curvature final : public Measure {
       const FineKnot& fine = at.track.fine_knots()[place - layout.knots];
       return {fine.piece, fine.share, at.track.fine_turn(at.state.z, place - layout.knots), fine.sigma};
     }
-    // The last knot is the end of the last piece.
-    const std::size_t piece = std::min(place, layout.knots - 2);
+    // The last knot is the end of the last piece, the first one at a border that of the piece before it.
+    const Vector& knots = at.track.mesh().knots;
+    const bool ends = place + 1 == layout.knots || knots[place] == knots[place + 1];
+    const std::size_t piece = ends ? place - 1 : place;
     return {piece, place == piece ? 0.0 : 1.0, at.state.z[layout.turn(place)], at.track.mesh().knots[place]};
   }
 };
@@ -168,17 +173,16 @@ class CurvatureRate final : public Measure {
 
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
-    const auto [length, first] = stretch(at, at.row.place);
+    const auto [length, first, unknown] = stretch(at, at.row.place);
     const double factor = 1.0 / (piece_share(at) * length * length);
     out[layout.turn(at.row.place + 1)] = factor;
     out[layout.turn(at.row.place)] = -factor;
-    out[layout.length()] = -2.0 * first * value(at) / length;
+    out[unknown] = -2.0 * first * value(at) / length;
   }
 
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Layout& layout = at.track.layout();
-    const std::size_t at_length = layout.length();
-    const auto [length, first] = stretch(at, at.row.place);
+    const auto [length, first, at_length] = stretch(at, at.row.place);
     if (first == 0.0) return;
     const double by_turn = -2.0 * factor / (piece_share(at) * length * length * length);
     add_pair(hessian, layout.turn(at.row.place + 1), at_length, by_turn);
@@ -188,7 +192,10 @@ class CurvatureRate final : public Measure {
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
     Row row = at.row;
-    for (row.place = 0; row.place + 1 < at.track.layout().knots; ++row.place) rows.push_back(row);
+    for (row.place = 0; row.place + 1 < at.track.layout().knots; ++row.place) {
+      if (piece_share(RowAt{at.problem, at.track, at.envelope, at.state, at.limit, row}) > 0.0)
+        rows.push_back(row);
+    }
   }
 
   [[nodiscard]] double place(const RowAt& at) const override {
@@ -219,11 +226,11 @@ class Load final : public Measure {
     at.track.add(at.state.flows[at.row.ride].dv, at.row.place, parts.by_v, out);
     const Station& station = at.track.stations()[at.row.place];
     if (station.part != Part::core) return;
-    const auto [length, first] = stretch(at, station.piece);
+    const auto [length, first, unknown] = stretch(at, station.piece);
     const double v = parts.by_curvature;
     out[layout.turn(station.piece)] += v * (1.0 - station.share) / length;
     out[layout.turn(station.piece + 1)] += v * station.share / length;
-    out[layout.length()] -= first * v * at.state.shape.curvature[at.row.place] / length;
+    out[unknown] -= first * v * at.state.shape.curvature[at.row.place] / length;
   }
 
   void add_weights(const RowAt& at, double factor, StationWeights& weights) const override {
@@ -235,14 +242,13 @@ class Load final : public Measure {
     const Station& station = at.track.stations()[at.row.place];
     if (station.part != Part::core) return;
     const Layout& layout = at.track.layout();
-    const std::size_t at_length = layout.length();
     const Stretch along = stretch(at, station.piece);
     const double length = along.length;
     const double bend = at.state.shape.curvature[at.row.place];
     Vector by_curvature(layout.size(), 0.0);
     by_curvature[layout.turn(station.piece)] = (1.0 - station.share) / length;
     by_curvature[layout.turn(station.piece + 1)] = station.share / length;
-    by_curvature[at_length] = -along.first * bend / length;
+    by_curvature[along.unknown] = -along.first * bend / length;
     Vector dv(layout.size(), 0.0);
     at.track.add(at.state.flows[at.row.ride].dv, at.row.place, 1.0, dv.data());
     const Ride::CurvatureLoad parts = load(at);
@@ -250,8 +256,8 @@ class Load final : public Measure {
     if (parts.by_curvature_curvature != 0.0) {
       add_symmetric(hessian, 0.5 * factor * parts.by_curvature_curvature, by_curvature, by_curvature);
     }
-    add_curvature_terms(hessian, layout.turn(station.piece), 1.0 - station.share, station.share, at_length,
-                        bend, along, factor * parts.by_curvature);
+    add_curvature_terms(hessian, layout.turn(station.piece), 1.0 - station.share, station.share, bend, along,
+                        factor * parts.by_curvature);
   }
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
@@ -293,7 +299,7 @@ class Speed : public Measure {
     const double from = at.problem.lowest_speed_from * (1.0 - 1e-9);
     for (row.place = 0; row.place <= last_station(at); ++row.place) {
       const Station& station = at.track.stations()[row.place];
-      const double s = station.arc_length(at.state.z[at.track.layout().length()]);
+      const double s = at.track.arc_length(at.state.z, station);
       if (!station.watched || (from_a_place && s < from)) continue;
       rows.push_back(row);
     }
@@ -371,9 +377,7 @@ class ArcLength final : public Measure {
   [[nodiscard]] double value(const RowAt& at) const override {
     return at.problem.lead_in + core_length(at) + at.problem.lead_out;
   }
-  void gradient(const RowAt& at, double* out) const override {
-    out[at.track.layout().length()] = at.track.core_by_length();
-  }
+  void gradient(const RowAt& at, double* out) const override { at.track.add_core_length(1.0, out); }
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override { add_last(at, 0, rows); }
 };
 
@@ -419,6 +423,22 @@ class Arrival final : public Measure {
   }
 };
 
+/// L of each span over that of the mesh.
+class SpanLength final : public Measure {
+ public:
+  [[nodiscard]] double value(const RowAt& at) const override {
+    return at.state.z[at.track.layout().length(at.row.place)] / at.track.mesh().core_length;
+  }
+  void gradient(const RowAt& at, double* out) const override {
+    out[at.track.layout().length(at.row.place)] = 1.0 / at.track.mesh().core_length;
+  }
+  void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
+    Row row = at.row;
+    for (row.place = 0; row.place < at.track.layout().spans; ++row.place) rows.push_back(row);
+  }
+  [[nodiscard]] double place(const RowAt&) const override { return 0.0; }
+};
+
 constinit const EntrySlopeAngle kEntrySlopeAngle{};
 constinit const ExitSlopeAngle kExitSlopeAngle{};
 constinit const SlopeAngle kSlopeAngle{};
@@ -432,6 +452,7 @@ constinit const ExitRunSpeed kExitRunSpeed{};
 constinit const ArcLength kArcLength{};
 constinit const FinishCoordinate kFinishCoordinate{};
 constinit const Arrival kArrival{};
+constinit const SpanLength kSpanLength{};
 
 }  // namespace
 
@@ -448,9 +469,10 @@ constinit const Measure* const Measure::exit_run_speed = &kExitRunSpeed;
 constinit const Measure* const Measure::arc_length = &kArcLength;
 constinit const Measure* const Measure::finish_coordinate = &kFinishCoordinate;
 constinit const Measure* const Measure::arrival = &kArrival;
+constinit const Measure* const Measure::span_length = &kSpanLength;
 
 double Measure::place(const RowAt& at) const {
-  return at.track.stations()[at.row.place].arc_length(at.state.z[at.track.layout().length()]);
+  return at.track.arc_length(at.state.z, at.track.stations()[at.row.place]);
 }
 
 const Measure* measure_of(LimitId id) {

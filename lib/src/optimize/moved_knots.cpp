@@ -1,7 +1,8 @@
 #include "optimize/moved_knots.hpp"
 
+#include "optimize/free_spans.hpp"
+#include "optimize/knot_groups.hpp"
 #include "optimize/programs.hpp"
-#include "optimize/switches.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,75 +13,11 @@
 namespace glissade::optimizer {
 namespace {
 
-/// Knots that move together: one, or those around a jump.
-struct Group {
-  std::size_t first = 0;
-  std::size_t last = 0;
-};
-
-bool lies_at_change(const Mesh& mesh, const Group& group) {
-  return std::any_of(mesh.change_knots.begin(), mesh.change_knots.end(), [&](const ChangeKnots& change) {
-    return mesh.knots[group.first] <= change.to && mesh.knots[group.last] >= change.from;
-  });
-}
-
-/// Whether curvature jumps or bends at a group: where it goes on in a line the place of a knot is nothing.
-bool bends_at(const Found& found, const Group& group) {
-  constexpr double kBend = 0.05;  // taste: of the greatest turning rate
-  if (group.first != group.last) return true;
-  const Layout& layout = found.track->layout();
-  const Vector& knots = found.track->mesh().knots;
-  const std::size_t k = group.first;
-  const auto rate = [&](std::size_t i) {
-    return (found.z[layout.turn(i + 1)] - found.z[layout.turn(i)]) / (knots[i + 1] - knots[i]);
-  };
-  double greatest = 0.0;
-  for (std::size_t i = 0; i < layout.knots; ++i) {
-    greatest = std::max(greatest, std::fabs(found.z[layout.turn(i)]));
-  }
-  const double room = std::min(knots[k] - knots[k - 1], knots[k + 1] - knots[k]);
-  return std::fabs(rate(k) - rate(k - 1)) * room > kBend * greatest;
-}
-
-/// Of knots close together those around the jump that they hold, where it is plain which piece that is.
-Group around_jump(const Found& found, const Group& close) {
-  constexpr double kMost = 0.6;  // taste: of all that curvature changes among them
-  const Layout& layout = found.track->layout();
-  double whole = 0.0;
-  double most = 0.0;
-  std::size_t piece = close.first;
-  for (std::size_t i = close.first; i < close.last; ++i) {
-    const double change = std::fabs(found.z[layout.turn(i + 1)] - found.z[layout.turn(i)]);
-    whole += change;
-    if (change <= most) continue;
-    most = change;
-    piece = i;
-  }
-  return most > kMost * whole ? Group{piece, piece + 1} : close;
-}
-
-/// Those that may move: not the ends, nor what stands at a change of friction.
-std::vector<Group> groups_of(const Found& found) {
-  const Mesh& mesh = found.track->mesh();
-  const std::size_t count = mesh.knots.size();
-  std::vector<Group> groups;
-  for (std::size_t k = 0; k < count;) {
-    Group group{k, k};
-    while (group.last + 1 < count && mesh.knots[group.last + 1] - mesh.knots[group.last] < 2.0 * kPair)
-      ++group.last;
-    k = group.last + 1;
-    if (group.last > group.first + 1) group = around_jump(found, group);
-    if (group.first == 0 || group.last + 1 == count || lies_at_change(mesh, group)) continue;
-    if (bends_at(found, group)) groups.push_back(group);
-  }
-  return groups;
-}
-
 /// Where places of a mesh go with the groups in it: what lies between two of them, or up to an end or a change of
 /// friction, is stretched.
 class Map {
  public:
-  Map(const Mesh& mesh, const std::vector<Group>& groups) : mesh_(mesh), groups_(groups) {
+  Map(const Mesh& mesh, const std::vector<KnotGroup>& groups) : mesh_(mesh), groups_(groups) {
     for (const ChangeKnots& change : mesh.change_knots) {
       held_.push_back(change.from);
       held_.push_back(change.to);
@@ -137,7 +74,7 @@ class Map {
   }
 
   const Mesh& mesh_;
-  const std::vector<Group>& groups_;
+  const std::vector<KnotGroup>& groups_;
   Vector held_;
 };
 
@@ -158,7 +95,7 @@ std::optional<double> lagrangian_on(const ScaledProblem& problem, const Mesh& me
 }
 
 /// By which the optimum changes with the place of each group.
-Vector slopes_of(const ScaledProblem& problem, const Found& found, const std::vector<Group>& groups) {
+Vector slopes_of(const ScaledProblem& problem, const Found& found, const std::vector<KnotGroup>& groups) {
   constexpr double kStep = 1e-4;  // rounding: of the room
   const Map map(found.track->mesh(), groups);
   Vector slopes(groups.size(), 0.0);
@@ -212,7 +149,7 @@ class InverseCurvature {
   bool is_new_ = true;
 };
 
-Vector rooms_of(const Found& found, const std::vector<Group>& groups) {
+Vector rooms_of(const Found& found, const std::vector<KnotGroup>& groups) {
   const Map map(found.track->mesh(), groups);
   Vector rooms;
   for (std::size_t j = 0; j < groups.size(); ++j) rooms.push_back(map.room(j));
@@ -228,8 +165,8 @@ Vector times(const Vector& a, const Vector& b, double factor = 1.0) {
 
 /// What each jump of the curvature promises to win through its room, to first order; bends, too, where they count.
 Vector promises_of(const ScaledProblem& problem, const Found& found, const KnotMoves& moves) {
-  std::vector<Group> jumps = groups_of(found);
-  if (!moves.bends) std::erase_if(jumps, [](const Group& group) { return group.first == group.last; });
+  std::vector<KnotGroup> jumps = knot_groups_of(found);
+  if (!moves.bends) std::erase_if(jumps, [](const KnotGroup& group) { return group.is_bend(); });
   return times(slopes_of(problem, found, jumps), rooms_of(found, jumps));
 }
 
@@ -248,7 +185,7 @@ class KnotMover {
         control_(control),
         moves_(moves),
         best_(begun),
-        groups_(groups_of(begun)),
+        groups_(knot_groups_of(begun)),
         unit_(rooms_of(begun, groups_)),
         curvature_(groups_.size()) {}
 
@@ -304,7 +241,7 @@ class KnotMover {
   SearchControl& control_;
   KnotMoves moves_;
   Found best_;
-  std::vector<Group> groups_;
+  std::vector<KnotGroup> groups_;
   Vector unit_;  ///< of the steps: the rooms at the beginning
   InverseCurvature curvature_;
 };
@@ -317,6 +254,8 @@ MovedKnots with_moved_knots(const ScaledProblem& problem, const Found& begun, do
   const Vector promises = promises_of(problem, begun, moves);
   if (!(greatest_size(promises) > moves.worth * std::fabs(begun.objective)))
     return {std::nullopt, sum_of_sizes(promises)};
+  const bool is_far = sum_of_sizes(promises) > moves.far * std::fabs(begun.objective);
+  if (is_far && can_free_spans(problem)) return {with_free_spans(problem, begun, tolerance, control), 0.0};
   KnotMover mover(problem, begun, tolerance, control, moves);
   mover.run();
   if (!(mover.best().objective < begun.objective)) return {};

@@ -13,8 +13,11 @@ struct KnotMoves {
   double worth = 2e-5;
   double at_rest = 1e-5;  ///< a step through all the room would win less; accuracy: ten times that of a time
   double pays = 5e-7;     ///< the least that a step wins; accuracy: half that of a time
-  bool bends = false;     ///< so do bends without a jump
-  int most_steps = 12;    ///< budget
+  /// Where they promise more than that together they lie far off, and steps would be many: what lies between them is freed at
+  /// once (free_spans.hpp). Taste.
+  double far = 3e-2;
+  bool bends = false;   ///< so do bends without a jump
+  int most_steps = 12;  ///< budget
 };
 
 /// An optimum among those of neighbouring meshes: knots go to where moving them wins nothing.

@@ -171,7 +171,7 @@ class Sequence {
 std::optional<Found> with_knots_at_rest(const ScaledProblem& problem, const Found& found,
                                         const OptimizeOptions& options, SearchControl& control) {
   // Prices miss by the first order of what the objective misses by the second.
-  constexpr KnotMoves kMoves{1e-6, 1e-7, 1e-10, true, 4};  // taste
+  constexpr KnotMoves kMoves{1e-6, 1e-7, 1e-10, 5e-3, true, 4};  // taste
   return with_moved_knots(problem, found, options.tolerance, control, kMoves).found;
 }
 

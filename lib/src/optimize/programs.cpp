@@ -73,8 +73,10 @@ Matrix shape_metric(const Transcription& track) {
     weights[i] = stations[i].arc_length(1.0) - stations[i - 1].arc_length(1.0);
   }
   Matrix gram = track.gram_of_dzeta(weights);
-  const std::size_t at_length = track.layout().length();
-  gram(at_length, at_length) = 1.0;
+  for (std::size_t span = 0; span < track.layout().spans; ++span) {
+    const std::size_t at_length = track.layout().length(span);
+    gram(at_length, at_length) = 1.0;
+  }
   constexpr double kStiffening = 1e-4;  // taste
   for (std::size_t i = 0; i < gram.columns(); ++i) gram(i, i) *= 1.0 + kStiffening;
   return gram;

@@ -107,7 +107,7 @@ Vector Rows::objective_gradient(const State& state) const {
     track_.add(flow.dv, last, -problem_.speed_weight * 0.5 / root, gradient.data());
   }
   if (problem_.drop_weight > 0.0) add_across(state.shape.dy, problem_.drop_weight, gradient.data());
-  gradient[track_.layout().length()] += problem_.length_weight * track_.core_by_length();
+  track_.add_core_length(problem_.length_weight, gradient.data());
   return gradient;
 }
 
@@ -177,7 +177,7 @@ Rows::WidthFactor Rows::width_factor(const State& state, const LimitSpec& limit,
   const auto* const stream = dynamic_cast<const BulkStream*>(problem_.rides[row.ride].law.get());
   if (stream == nullptr || stream->shape().width.is_constant()) return {};
   const Station& station = track_.stations()[row.place];
-  const double s = station.arc_length(state.z[track_.layout().length()]);
+  const double s = track_.arc_length(state.z, station);
   const double width = stream->width(s);
   const double share = width / stream->width(0.0);
   const double value = math::pow(share, limit.width_power);

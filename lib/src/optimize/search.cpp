@@ -252,14 +252,19 @@ class Minimiser {
     const Measure* const measure = problem_.limits[row.limit].measure;
     const Vector& knots = track_->mesh().knots;
     if (measure == Measure::curvature) {
-      row.place = nearest_knot(knot_at(*known.track, row.place));
+      const double sigma = knot_at(*known.track, row.place);
+      const bool moves = !known.track->mesh().borders.empty();
+      row.place = nearest_knot(moves ? known.track->share_of_core(known.z, sigma) : sigma);
     } else if (measure == Measure::curvature_rate) {
       const Vector& before = known.track->mesh().knots;
       const double middle = 0.5 * (before[row.place] + before[row.place + 1]);
       const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, middle);
       row.place = static_cast<std::size_t>(above - knots.begin()) - 1;
     } else {
-      row.place = nearest_station(known.track->stations()[row.place].arc_length(track_->mesh().core_length));
+      const Station& station = known.track->stations()[row.place];
+      const bool moves = !known.track->mesh().borders.empty();
+      row.place = nearest_station(moves ? known.track->arc_length(known.z, station)
+                                        : station.arc_length(track_->mesh().core_length));
     }
     return row;
   }

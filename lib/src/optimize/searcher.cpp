@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 
+#include "optimize/free_spans.hpp"
 #include "optimize/least_violation.hpp"
 #include "optimize/moved_knots.hpp"
 #include "optimize/refined_knots.hpp"
@@ -501,6 +502,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   finer_mesh_wins_.reset();
   moves_promise_ = 0.0;
   multipliers_ahead_.clear();
+  if (!found.stopped) found = with_far_jumps_moved(problem, std::move(found));
   if (!found.stopped) found = followed(problem, std::move(found));
   if (!found.stopped) found = bent_at_finish(problem, std::move(found));
   if (!found.stopped) found = halved(problem, std::move(found));
@@ -536,6 +538,15 @@ void Searcher::settle(Candidate& candidate, Found found) {
   if (takes) candidate = std::move(other);
   if (!is_good) candidate.promising = std::move(moved);
   candidate.stopped = stopped;
+}
+
+// On a mesh that follows no load yet it costs little, and what follows begins in the better valley.
+Found Searcher::with_far_jumps_moved(const ScaledProblem& problem, Found found) {
+  if (!is_optimum(found) || !can_free_spans(problem)) return found;
+  KnotMoves far;
+  far.worth = far.far;
+  std::optional<Found> moved = with_moved_knots(problem, found, options_.tolerance, control_, far).found;
+  return moved ? std::move(*moved) : found;
 }
 
 Found Searcher::exactly(const ScaledProblem& problem, Found found) {

@@ -14,7 +14,6 @@ namespace glissade::optimizer {
 void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   const PanelRule& rule = panel_rule();
   const std::size_t count = stations_.size();
-  const double length = z[layout_.length()];
   out.zeta.resize(count);
   out.sin.resize(count);
   out.cos.resize(count);
@@ -34,7 +33,7 @@ void Transcription::shape(const Vector& z, Shape& out, bool derivatives) const {
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const std::size_t start = start_station(p);
-    const double scale = panel.scale(length);
+    const double scale = scale_of(panel, z);
     for (std::size_t q = 0; q <= kNodes; ++q) {
       double sum_x = 0.0;
       double sum_y = 0.0;
@@ -79,7 +78,7 @@ GLISSADE_WIDE_VARIANT void Transcription::differentiate_shape(const Vector& z, s
                                                               Shape& out) const {
   const PanelRule& rule = panel_rule();
   const Panel& panel = panels_[p];
-  const double scale = panel.scale(z[layout_.length()]);
+  const double scale = scale_of(panel, z);
   carry_over(p, out.dx);
   carry_over(p, out.dy);
   const LocalRow dx_start = at_start(p, out.dx);
@@ -113,7 +112,6 @@ GLISSADE_WIDE_VARIANT void Transcription::differentiate_shape(const Vector& z, s
 Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t base, std::size_t towards,
                             double share) const {
   const PanelRule& rule = panel_rule();
-  const double length = z[layout_.length()];
   const Station& from = stations_[base];
   // The piece that lies between the two is that of the later one.
   const Station& later = stations_[std::max(base, towards)];
@@ -143,7 +141,7 @@ Foot Transcription::between(const Vector& z, const Shape& shape, std::size_t bas
       curvature_slope += (station_turn_[towards] - station_turn_[base]) / (gap * stretch);
     }
   }
-  const double ds = foot.at.arc_length(length) - from.arc_length(length);
+  const double ds = arc_length(z, foot.at) - arc_length(z, from);
   const auto angle = [&](double s) {
     return shape.zeta[base] - s * (curvature_from + 0.5 * s * curvature_slope);
   };
@@ -180,10 +178,9 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
       nearest = i;
     }
   }
-  const double length = z[layout_.length()];
   for (std::size_t i = 0; i < stations_.size();) {
     const double distance = distance_of(i);
-    double ahead = stations_[i].arc_length(length);
+    double ahead = arc_length(z, stations_[i]);
     if (distance < least || (distance == least && i < nearest)) {
       least = distance;
       nearest = i;
@@ -192,9 +189,22 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
     }
     do {
       ++i;
-    } while (i < stations_.size() && stations_[i].arc_length(length) < ahead);
+    } while (i < stations_.size() && arc_length(z, stations_[i]) < ahead);
   }
   return foot(z, shape, target_x, target_y, nearest);
+}
+
+std::size_t Transcription::last_at_place(std::size_t station, bool forward) const {
+  const auto is_same = [&](std::size_t a, std::size_t b) {
+    return stations_[a].part == Part::core && stations_[b].part == Part::core &&
+           stations_[a].sigma == stations_[b].sigma;
+  };
+  if (forward) {
+    while (station + 1 < stations_.size() && is_same(station, station + 1)) ++station;
+  } else {
+    while (station > 0 && is_same(station, station - 1)) --station;
+  }
+  return station;
 }
 
 Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, double target_y,
@@ -202,6 +212,7 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
   const double along =
       (target_x - shape.x[nearest]) * shape.cos[nearest] + (target_y - shape.y[nearest]) * shape.sin[nearest];
   const bool forward = along > 0.0;
+  if (!mesh_.borders.empty()) nearest = last_at_place(nearest, forward);
   if ((!forward && nearest == 0) || (forward && nearest + 1 == stations_.size())) {
     Foot foot;
     foot.at = stations_[nearest];
@@ -215,8 +226,7 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
     return foot;
   }
   const std::size_t towards = forward ? nearest + 1 : nearest - 1;
-  const double gap =
-      stations_[towards].arc_length(z[layout_.length()]) - stations_[nearest].arc_length(z[layout_.length()]);
+  const double gap = arc_length(z, stations_[towards]) - arc_length(z, stations_[nearest]);
   double share = std::min(1.0, std::fabs(along / gap));
   Foot foot = between(z, shape, nearest, towards, share);
   for (int step = 0; step < 8; ++step) {
@@ -232,7 +242,6 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
                                      Vector& dy) const {
   const PanelRule& rule = panel_rule();
   const std::size_t n = layout_.size();
-  const double length = z[layout_.length()];
   const Station& from = stations_[foot.base];
   dx.assign(n, 0.0);
   dy.assign(n, 0.0);
@@ -240,7 +249,7 @@ void Transcription::foot_derivatives(const Vector& z, const Shape& shape, const 
   add(shape.dy, foot.base, 1.0, dy.data());
   const double d_sigma = foot.at.sigma - from.sigma;
   const double by_length = foot.at.by_length - from.by_length;
-  const double ds = foot.at.arc_length(length) - from.arc_length(length);
+  const double ds = arc_length(z, foot.at) - arc_length(z, from);
   if (ds == 0.0) return;
   const std::size_t section = section_of(foot.at.part, foot.at.piece);
   const std::size_t piece = sections_[section].piece;

@@ -28,6 +28,7 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
     const auto last = std::find(mesh.knots.begin(), mesh.knots.end(), fixed_share_);
     fixed_pieces_ = static_cast<std::size_t>(last - mesh.knots.begin());
   }
+  add_spans();
   if (mesh.lead_in > 0.0) add_straight(Part::lead_in);
   add_fine_knots();
   add_core();
@@ -42,6 +43,21 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
     local_dzeta_[i] = local_dzeta(stations_[i]);
   }
   if (!fine_.empty()) add_fine_to_stations();
+}
+
+void Transcription::add_spans() {
+  layout_.spans = 1 + mesh_.borders.size();
+  span_begins_.push_back(0.0);
+  span_begins_.insert(span_begins_.end(), mesh_.borders.begin(), mesh_.borders.end());
+  span_begins_.push_back(1.0);
+  span_of_.assign(mesh_.knots.size() - 1, 0);
+  if (mesh_.borders.empty()) return;
+  // What lies between the two knots of a border is nothing; it goes with what lies before it.
+  std::size_t span = 0;
+  for (std::size_t piece = 0; piece < span_of_.size(); ++piece) {
+    while (mesh_.knots[piece + 1] > span_begins_[span + 1]) ++span;
+    span_of_[piece] = span;
+  }
 }
 
 void Transcription::add_fine_to_stations() {
@@ -106,9 +122,12 @@ double Transcription::fine_turn(const Vector& z, std::size_t fine_knot) const {
 
 void Transcription::add_sections() {
   if (mesh_.lead_in > 0.0) sections_.push_back({Part::lead_in, 0});
-  for (std::size_t piece = 0; piece + 1 < mesh_.knots.size(); ++piece)
-    sections_.push_back({Part::core, piece});
-  if (mesh_.lead_out > 0.0) sections_.push_back({Part::lead_out, mesh_.knots.size() - 2});
+  for (std::size_t piece = 0; piece + 1 < mesh_.knots.size(); ++piece) {
+    section_of_piece_.push_back(sections_.size());
+    if (mesh_.knots[piece + 1] > mesh_.knots[piece])
+      sections_.push_back({Part::core, piece, span_of_[piece]});
+  }
+  if (mesh_.lead_out > 0.0) sections_.push_back({Part::lead_out, mesh_.knots.size() - 2, layout_.spans - 1});
   for (Station& station : stations_) station.section = section_of(station.part, station.piece);
   for (Panel& panel : panels_) panel.section = stations_[panel.first].section;
   dzeta_starts_ = Matrix(sections_.size(), layout_.size());
@@ -126,14 +145,13 @@ void Transcription::add_sections() {
 }
 
 std::size_t Transcription::section_of(Part part, std::size_t piece) const {
-  const std::size_t before = mesh_.lead_in > 0.0 ? 1 : 0;
   switch (part) {
     case Part::lead_in:
       return 0;
     case Part::core:
-      return before + piece;
+      return section_of_piece_[piece];
     case Part::lead_out:
-      return before + mesh_.knots.size() - 1;
+      return sections_.size() - 1;
   }
   return 0;
 }
@@ -161,7 +179,7 @@ void Transcription::expand(const LocalRow& row, std::size_t section, const doubl
   if (row[kZeta] != 0.0) add_scaled(out, row[kZeta], dzeta_starts_.row(section), layout_.turn(piece + 2));
   out[layout_.turn(piece)] += row[kFirst];
   out[layout_.turn(piece + 1)] += row[kSecond];
-  out[layout_.length()] += row[kLength];
+  out[layout_.length(sections_[section].span)] += row[kLength];
 }
 
 void Transcription::add_dzeta(std::size_t station, double factor, double* out) const {
@@ -230,19 +248,46 @@ double Transcription::angle_at(const Vector& z, const Vector& section_angles, st
 }
 
 double Transcription::core_length(const Vector& z) const {
-  return fixed_share_ * mesh_.core_length + (1.0 - fixed_share_) * z[layout_.length()];
+  double length = fixed_share_ * mesh_.core_length;
+  for (std::size_t span = 0; span < layout_.spans; ++span)
+    length += core_by_length(span) * z[layout_.length(span)];
+  return length;
+}
+
+void Transcription::add_core_length(double factor, double* out) const {
+  for (std::size_t span = 0; span < layout_.spans; ++span)
+    out[layout_.length(span)] += factor * core_by_length(span);
+}
+
+double Transcription::arc_length(const Vector& z, const Station& station) const {
+  double length = station.fixed_length;
+  for (std::size_t span = 0; span < station.span; ++span)
+    length += core_by_length(span) * z[layout_.length(span)];
+  return length + station.by_length * z[layout_.length(station.span)];
 }
 
 double Transcription::arc_length(const Vector& z, double sigma) const {
   const double fixed = std::min(sigma, fixed_share_);
-  return mesh_.lead_in + fixed * mesh_.core_length + (sigma - fixed) * z[layout_.length()];
+  double length = mesh_.lead_in + fixed * mesh_.core_length;
+  std::size_t span = 0;
+  for (; span + 1 < layout_.spans && sigma > span_begins_[span + 1]; ++span)
+    length += core_by_length(span) * z[layout_.length(span)];
+  const double from = span == 0 ? fixed : span_begins_[span];
+  return length + (sigma - from) * z[layout_.length(span)];
 }
 
 double Transcription::sigma_at(const Vector& z, double arc_length) const {
   const double along = arc_length - mesh_.lead_in;
   const double fixed = fixed_share_ * mesh_.core_length;
   if (along < fixed) return along / mesh_.core_length;
-  return fixed_share_ + (along - fixed) / z[layout_.length()];
+  double rest = along - fixed;
+  std::size_t span = 0;
+  for (; span + 1 < layout_.spans; ++span) {
+    const double whole = core_by_length(span) * z[layout_.length(span)];
+    if (rest <= whole) break;
+    rest -= whole;
+  }
+  return (span == 0 ? fixed_share_ : span_begins_[span]) + rest / z[layout_.length(span)];
 }
 
 std::size_t Transcription::zone_at(double arc_length) const {
@@ -263,6 +308,12 @@ void Transcription::add_core() {
     stretch.from = breaks[i];
     stretch.to = breaks[i + 1];
     while (stretch.from >= mesh_.knots[stretch.piece + 1]) ++stretch.piece;
+    // A panel without length, for what curvature is behind a border.
+    if (std::binary_search(mesh_.borders.begin(), mesh_.borders.end(), stretch.from)) {
+      Stretch behind = stretch;
+      behind.to = behind.from;
+      add_panels(behind);
+    }
     add_panels(stretch);
   }
 }
@@ -274,7 +325,7 @@ void Transcription::add_straight(Part part) {
   const double begin = before ? 0.0 : mesh_.lead_in + mesh_.core_length;
   const double whole = before ? mesh_.lead_in : mesh_.lead_out;
   const double end_fixed = before ? 0.0 : mesh_.lead_in + fixed_share_ * mesh_.core_length;
-  const double end_by_length = before ? 0.0 : 1.0 - fixed_share_;
+  const double end_by_length = before ? 0.0 : core_by_length(layout_.spans - 1);
   Stretch stretch;
   stretch.part = part;
   stretch.piece = before ? 0 : mesh_.knots.size() - 2;
@@ -305,8 +356,10 @@ void Transcription::add_station(double at, const Stretch& stretch, std::size_t z
     const double from = mesh_.knots[stretch.piece];
     const double to = mesh_.knots[stretch.piece + 1];
     const bool stretches = this->stretches(stretch.piece);
+    station.span = span_of_[stretch.piece];
+    station.before = span_begins_[station.span];
     station.fixed_length = mesh_.lead_in + (stretches ? fixed_share_ : at) * mesh_.core_length;
-    station.by_length = stretches ? at - fixed_share_ : 0.0;
+    station.by_length = stretches ? at - (station.span == 0 ? fixed_share_ : station.before) : 0.0;
     station.sigma = at;
     station.share = at == to ? 1.0 : (at - from) / (to - from);
     stations_.push_back(station);
@@ -318,6 +371,8 @@ void Transcription::add_station(double at, const Stretch& stretch, std::size_t z
                              : stretch.fixed[0] + share * (stretch.fixed[1] - stretch.fixed[0]);
   station.by_length = stretch.by_length[0] + share * (stretch.by_length[1] - stretch.by_length[0]);
   if (stretch.part == Part::lead_out) {
+    station.span = layout_.spans - 1;
+    station.before = span_begins_[station.span];
     station.sigma = 1.0;
     station.share = 1.0;
   }
@@ -331,13 +386,17 @@ Transcription::Panel Transcription::panel_of(const Stretch& stretch) const {
   double before = 0.0;
   if (stretch.part == Part::core) {
     before = mesh_.lead_in;
+    panel.span = span_of_[stretch.piece];
     panel.zone = zone_at(mesh_.lead_in + middle * mesh_.core_length);
     if (stretches(stretch.piece)) return panel;
     panel.fixed_scale = mesh_.core_length;
     panel.by_length = 0.0;
     return panel;
   }
-  if (stretch.part == Part::lead_out) before = mesh_.lead_in + mesh_.core_length;
+  if (stretch.part == Part::lead_out) {
+    before = mesh_.lead_in + mesh_.core_length;
+    panel.span = layout_.spans - 1;
+  }
   panel.zone = zone_at(before + middle);
   const double whole = stretch.to - stretch.from;
   const bool moves_as_one = stretch.by_length[0] == stretch.by_length[1];
@@ -383,9 +442,9 @@ void Transcription::add_panels(const Stretch& stretch) {
     for (std::size_t k = 0; k < kNodes; ++k) {
       const double r = from + (to - from) * rule.node[k];
       panel.ds[k] = 2.0 * r * (to - from);
-      add_station(r * r - shift, stretch, panel.zone);
+      add_station(a == b ? a : r * r - shift, stretch, panel.zone);
       // The two middle nodes; the outer ones lie next to the ends of the panel.
-      stations_.back().watched = 2 * k + 2 == kNodes || 2 * k == kNodes;
+      stations_.back().watched = a < b && (2 * k + 2 == kNodes || 2 * k == kNodes);
     }
     panels_.push_back(panel);
     add_station(i + 1 == count ? b : to * to - shift, stretch, panel.zone);
@@ -408,12 +467,13 @@ bool Transcription::is_track(const Vector& z) const {
   constexpr double kSteepest = 3.0;    // theory: below pi
   constexpr double kLongest = 100.0;   // taste: above any track
   constexpr double kTightest = 0.999;  // curvature times height; theory: at 1 the body does not fit in
-  const double length = z[layout_.length()];
   const double core = core_length(z);
-  if (!(core > kShortestCore && core < kLongest && length > 0.0)) return false;
+  const bool turns_round = std::any_of(z.begin() + static_cast<std::ptrdiff_t>(layout_.length()), z.end(),
+                                       [](double length) { return !(length > 0.0); });
+  if (!(core > kShortestCore && core < kLongest) || turns_round) return false;
   // Of the straight behind the core no part is turned round.
   for (const Panel& panel : panels_) {
-    if (!(panel.scale(length) > 0.0)) return false;
+    if (!(scale_of(panel, z) > 0.0)) return false;
   }
   for (std::size_t i = 0; i < layout_.knots; ++i) {
     const std::size_t before = std::max(i, std::size_t{1}) - 1;

@@ -16,18 +16,22 @@ namespace glissade::optimizer {
 /// The unknowns of a clothoid spline between optional straight ends, as offsets into one vector:
 ///   [0] entry slope angle zeta_0 [rad]
 ///   [1 .. knots] turning rates c_i = L kappa_i at the knots sigma_i, linear in between [rad]
-///   [knots + 1] L, the length of the core [chords]
+///   [knots + 1 ..] L, the length of the core [chords]
 /// With them zeta is linear in (zeta_0, c), whatever the length.
+///
+/// Where the core is parted by Mesh::borders each span between them has a length of its own: L is then what the core would
+/// have if all of it were stretched as that span is, and c_i = L kappa_i with the L of the span.
 ///
 /// Where friction changes along the track, each change keeps its arc length: the core up to the last change in it has
 /// the length that its mesh gives it, c_i = Mesh::core_length kappa_i there, and L is the length that the core would
 /// have if all of it were stretched as what lies behind that change.
 struct Layout {
   std::size_t knots = 0;
+  std::size_t spans = 1;
   [[nodiscard]] std::size_t angle() const { return 0; }
   [[nodiscard]] std::size_t turn(std::size_t knot) const { return 1 + knot; }
-  [[nodiscard]] std::size_t length() const { return 1 + knots; }
-  [[nodiscard]] std::size_t size() const { return 2 + knots; }
+  [[nodiscard]] std::size_t length(std::size_t span = 0) const { return 1 + knots + span; }
+  [[nodiscard]] std::size_t size() const { return 1 + knots + spans; }
 };
 
 /// A place of the core from which on the track rubs differently, and the knots that stand there.
@@ -45,7 +49,10 @@ struct ChangeKnots {
 
 /// Where the curvature's knots lie and how the track is cut for quadrature.
 struct Mesh {
-  Vector knots;         ///< sigma, ascending from 0 to 1: shares of the core length
+  Vector knots;  ///< sigma, ascending from 0 to 1: shares of the core length
+  /// Sigma, ascending: two knots lie at each, curvature jumps from that of the first to that of the second, and what lies
+  /// between two of them has an unknown length of its own. None where friction changes.
+  Vector borders;
   Vector extra_breaks;  ///< further sigma at which limits are to be held exactly
   /// Sigma, ascending, none of them a knot: here the curvature has further knots, which go along with those
   /// around them, ...
@@ -63,10 +70,12 @@ struct Mesh {
 
 enum class Part { lead_in, core, lead_out };
 
-/// A point of the track at which the state is known: s = fixed_length + by_length z[Layout::length()].
+/// A point of the track at which the state is known: s = fixed_length + by_length L of its span, behind the spans before.
 struct Station {
   double fixed_length = 0.0;
   double by_length = 0.0;
+  std::size_t span = 0;
+  double before = 0.0;      ///< sigma where its span begins
   double sigma = 0.0;       ///< share of the core's length, as the mesh has it
   std::size_t piece = 0;    ///< between knots piece and piece + 1
   double share = 0.0;       ///< of the way between these knots
@@ -74,7 +83,10 @@ struct Station {
   std::size_t section = 0;  ///< of the track: a straight end or one piece
   std::size_t zone = 0;     ///< changes of friction before it; at a change those before it
   bool watched = true;      ///< limits are held here; enough of them that little happens in between
-  [[nodiscard]] double arc_length(double length) const { return fixed_length + by_length * length; }
+  /// Where all spans have the same L.
+  [[nodiscard]] double arc_length(double length) const {
+    return fixed_length + (before + by_length) * length;
+  }
 };
 
 /// What slides, scaled.
@@ -204,22 +216,32 @@ class Transcription {
   [[nodiscard]] Matrix gram_of_dzeta(const Vector& weights) const;
   [[nodiscard]] double curvature(const Vector& z, std::size_t station) const;
   [[nodiscard]] double core_length(const Vector& z) const;
-  /// @return its derivative by z[Layout::length()]
-  [[nodiscard]] double core_by_length() const { return 1.0 - fixed_share_; }
-  /// Whether a piece is stretched with z[Layout::length()], ...
+  /// @return its derivative by the L of a span
+  [[nodiscard]] double core_by_length(std::size_t span) const {
+    return span_begins_[span + 1] - (span == 0 ? fixed_share_ : span_begins_[span]);
+  }
+  /// out += factor times the derivatives of the core's length
+  void add_core_length(double factor, double* out) const;
+  /// Whether a piece is stretched with the L of its span, ...
   [[nodiscard]] bool stretches(std::size_t piece) const { return piece >= fixed_pieces_; }
+  /// ... which unknown that is, ...
+  [[nodiscard]] std::size_t length_of(std::size_t piece) const { return layout_.length(span_of_[piece]); }
   /// ... and ds/dsigma within it: its curvature is its turning rate over this.
   [[nodiscard]] double stretch(const Vector& z, std::size_t piece) const {
-    return stretches(piece) ? z[layout_.length()] : mesh_.core_length;
+    return stretches(piece) ? z[length_of(piece)] : mesh_.core_length;
   }
   /// Whether there is a change of friction in the core.
   [[nodiscard]] bool has_fixed_pieces() const { return fixed_pieces_ > 0; }
+  /// Of a station.
+  [[nodiscard]] double arc_length(const Vector& z, const Station& station) const;
   /// Arc length of a place of the core, and the place of an arc length, beyond the core's ends too.
   [[nodiscard]] double arc_length(const Vector& z, double sigma) const;
   [[nodiscard]] double sigma_at(const Vector& z, double arc_length) const;
   /// Arc length of a place of the core from its start, over its whole length: sigma where no friction changes.
   [[nodiscard]] double share_of_core(const Vector& z, double sigma) const {
-    return has_fixed_pieces() ? (arc_length(z, sigma) - mesh_.lead_in) / core_length(z) : sigma;
+    return has_fixed_pieces() || !mesh_.borders.empty()
+               ? (arc_length(z, sigma) - mesh_.lead_in) / core_length(z)
+               : sigma;
   }
   [[nodiscard]] const std::vector<FineKnot>& fine_knots() const { return fine_; }
   /// Turning rate at a fine knot, its own included.
@@ -261,11 +283,15 @@ class Transcription {
     std::size_t section = 0;  ///< to which it belongs
     Part part = Part::core;
     std::size_t zone = 0;  ///< as of Station
+    std::size_t span = 0;  ///< as of Station
     double ds[8] = {};     ///< ds/dtau at the nodes, but for the scale
     double fixed_scale = 0.0;
     double by_length = 1.0;
     [[nodiscard]] double scale(double length) const { return fixed_scale + by_length * length; }
   };
+  [[nodiscard]] double scale_of(const Panel& panel, const Vector& z) const {
+    return panel.scale(z[layout_.length(panel.span)]);
+  }
   /// A stretch of one part with one friction, to be cut into panels. Ends in sigma within the core, in arc length from
   /// the part's start within a straight.
   struct Stretch {
@@ -281,6 +307,7 @@ class Transcription {
   struct Section {
     Part part = Part::core;
     std::size_t piece = 0;
+    std::size_t span = 0;
   };
   /// What a Hessian is made of: products of the vectors behind LocalRows, for each section; lower triangle.
   using LocalMatrix = std::array<LocalRow, 5>;
@@ -359,24 +386,31 @@ class Transcription {
   [[nodiscard]] std::size_t zone_at(double arc_length) const;
   /// Adds what a sliding point's exponent 2 mu zeta - 2 k s of one friction does at a station.
   /// @param by_v  dL/dv there
-  void add_exponent(StationTerms& terms, double mu, const Ride& ride, const Flow& flow, std::size_t station,
-                    double by_v) const;
+  /// @param by_length  ds/dL there, from where the exponent counts
+  static void add_exponent(StationTerms& terms, double mu, const Ride& ride, double v, double by_length,
+                           double by_v);
   void add_fine_knots();
   /// What the fine knots add at the stations.
   void add_fine_to_stations();
   /// own_turn() behind a knot, of both kinds
   [[nodiscard]] double own_turn(double sigma, std::size_t knot) const;
+  void add_spans();
   void add_sections();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;
+  /// Of the stations at the place of one, at a border, that beside which the track goes on.
+  [[nodiscard]] std::size_t last_at_place(std::size_t station, bool forward) const;
 
   Mesh mesh_;
   Layout layout_;
-  std::size_t fixed_pieces_ = 0;  ///< up to the last change of friction in the core
-  double fixed_share_ = 0.0;      ///< sigma there
+  std::size_t fixed_pieces_ = 0;      ///< up to the last change of friction in the core
+  double fixed_share_ = 0.0;          ///< sigma there
+  std::vector<std::size_t> span_of_;  ///< of the pieces
+  Vector span_begins_;                ///< sigma; of the end of the core, too
   std::vector<Panel> panels_;
   std::vector<Station> stations_;
   std::vector<std::size_t> watched_;
   std::vector<Section> sections_;
+  std::vector<std::size_t> section_of_piece_;
   Matrix dzeta_starts_;                ///< dzeta where the sections begin
   std::vector<LocalRow> local_dzeta_;  ///< of the stations
   std::vector<FineKnot> fine_;
