@@ -2,7 +2,7 @@
 
 #include "optimize/free_spans.hpp"
 
-#include "glissade/motion/laws/rolling_ball.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 
 #include "optimize/scaled_problem.hpp"
 #include "optimize/starts.hpp"
@@ -103,12 +103,13 @@ TEST_CASE(
   Problem smooth = over_a_crest();
   smooth.limits.highest_curvature_rate = 0.1;
   CHECK_FALSE(can_free_spans(scaled(smooth, {})));
-  BallShape ball;
-  ball.radius = 0.3;
-  ball.groove_half_angle = Angle::from_degrees(50.0);
-  Problem rolling = over_a_crest();
-  rolling.body.law = std::make_shared<const RollingBall>(ball);
-  CHECK_FALSE(can_free_spans(scaled(rolling, {})));
+  StreamShape shape;
+  shape.mass_flow = 500.0;
+  shape.bulk_density = 1000.0;
+  shape.width = WidthLaw({{0.0, 1.0}, {30.0, 0.7}});
+  Problem stream = over_a_crest();
+  stream.body.law = std::make_shared<const BulkStream>(shape);
+  CHECK_FALSE(can_free_spans(scaled(stream, {})));
   ScaledProblem changing = scaled(over_a_crest(), {});
   changing.changes = {0.3};
   CHECK_FALSE(can_free_spans(changing));
