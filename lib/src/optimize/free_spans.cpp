@@ -15,15 +15,15 @@ namespace {
 // How wide a jump is drawn, as a share of the core: what that costs is a hundredth of what a pair of knots costs.
 constexpr double kRamp = 0.02 * kPair;  // accuracy: it costs below that of a time
 // Of the length that a span begins with.
-constexpr double kLongest = 2.0;   // taste
-constexpr double kShortest = 0.4;  // taste
+constexpr double kLongestSpan = 2.0;   // taste
+constexpr double kShortestSpan = 0.4;  // taste
 
 /// Limits on the lengths of spans, as measured by the mesh.
 ScaledProblem with_room(ScaledProblem problem) {
   LimitSpec room;
   room.measure = Measure::span_length;
   room.built_in = true;
-  for (const auto& [side, bound] : {std::pair{1, kLongest}, std::pair{-1, kShortest}}) {
+  for (const auto& [side, bound] : {std::pair{1, kLongestSpan}, std::pair{-1, kShortestSpan}}) {
     room.side = side;
     room.bound = bound;
     problem.limits.push_back(room);

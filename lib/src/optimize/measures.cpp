@@ -22,12 +22,12 @@ double core_length(const RowAt& at) {
 }
 
 /// Length of the core over sigma within a piece, and its derivative by the unknown that it is.
-struct Stretch {
+struct PieceLength {
   double length = 1.0;
   double first = 1.0;
   std::size_t unknown = 0;
 };
-Stretch stretch(const RowAt& at, std::size_t piece) {
+PieceLength piece_length(const RowAt& at, std::size_t piece) {
   return {at.track.stretch(at.state.z, piece), at.track.stretches(piece) ? 1.0 : 0.0,
           at.track.length_of(piece)};
 }
@@ -71,7 +71,7 @@ void add_pair(Matrix& hessian, std::size_t i, std::size_t j, double value) {
 
 /// Second derivative of c/L, c = first z_i + second z_(i+1).
 void add_curvature_terms(Matrix& hessian, std::size_t i, double first, double second, double curvature,
-                         const Stretch& stretch, double factor) {
+                         const PieceLength& stretch, double factor) {
   if (stretch.first == 0.0) return;
   const double length = stretch.length;
   const std::size_t at_length = stretch.unknown;
@@ -106,13 +106,13 @@ class Curvature final : public Measure {
  public:
   [[nodiscard]] double value(const RowAt& at) const override {
     const Bend here = bend(at);
-    return here.turn / stretch(at, here.piece).length;
+    return here.turn / piece_length(at, here.piece).length;
   }
 
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
     const Bend here = bend(at);
-    const auto [length, first, unknown] = stretch(at, here.piece);
+    const auto [length, first, unknown] = piece_length(at, here.piece);
     out[layout.turn(here.piece)] = (1.0 - here.share) / length;
     out[layout.turn(here.piece + 1)] = here.share / length;
     out[unknown] = -first * here.turn / (length * length);
@@ -121,7 +121,7 @@ class Curvature final : public Measure {
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Layout& layout = at.track.layout();
     const Bend here = bend(at);
-    const Stretch along = stretch(at, here.piece);
+    const PieceLength along = piece_length(at, here.piece);
     add_curvature_terms(hessian, layout.turn(here.piece), 1.0 - here.share, here.share,
                         here.turn / along.length, along, factor);
   }
@@ -166,14 +166,14 @@ class CurvatureRate final : public Measure {
  public:
   [[nodiscard]] double value(const RowAt& at) const override {
     const Layout& layout = at.track.layout();
-    const double length = stretch(at, at.row.place).length;
+    const double length = piece_length(at, at.row.place).length;
     return (at.state.z[layout.turn(at.row.place + 1)] - at.state.z[layout.turn(at.row.place)]) /
            (piece_share(at) * length * length);
   }
 
   void gradient(const RowAt& at, double* out) const override {
     const Layout& layout = at.track.layout();
-    const auto [length, first, unknown] = stretch(at, at.row.place);
+    const auto [length, first, unknown] = piece_length(at, at.row.place);
     const double factor = 1.0 / (piece_share(at) * length * length);
     out[layout.turn(at.row.place + 1)] = factor;
     out[layout.turn(at.row.place)] = -factor;
@@ -182,7 +182,7 @@ class CurvatureRate final : public Measure {
 
   void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
     const Layout& layout = at.track.layout();
-    const auto [length, first, at_length] = stretch(at, at.row.place);
+    const auto [length, first, at_length] = piece_length(at, at.row.place);
     if (first == 0.0) return;
     const double by_turn = -2.0 * factor / (piece_share(at) * length * length * length);
     add_pair(hessian, layout.turn(at.row.place + 1), at_length, by_turn);
@@ -226,7 +226,7 @@ class Load final : public Measure {
     at.track.add(at.state.flows[at.row.ride].dv, at.row.place, parts.by_v, out);
     const Station& station = at.track.stations()[at.row.place];
     if (station.part != Part::core) return;
-    const auto [length, first, unknown] = stretch(at, station.piece);
+    const auto [length, first, unknown] = piece_length(at, station.piece);
     const double v = parts.by_curvature;
     out[layout.turn(station.piece)] += v * (1.0 - station.share) / length;
     out[layout.turn(station.piece + 1)] += v * station.share / length;
@@ -242,7 +242,7 @@ class Load final : public Measure {
     const Station& station = at.track.stations()[at.row.place];
     if (station.part != Part::core) return;
     const Layout& layout = at.track.layout();
-    const Stretch along = stretch(at, station.piece);
+    const PieceLength along = piece_length(at, station.piece);
     const double length = along.length;
     const double bend = at.state.shape.curvature[at.row.place];
     Vector by_curvature(layout.size(), 0.0);
