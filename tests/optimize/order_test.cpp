@@ -147,7 +147,6 @@ TEST_CASE(
     all.push_back({3, 298, "without exit_slope_angle.highest"});
     all.push_back({7, 92, "wider arc_length.highest"});
     all.push_back({8, 352, "without lead_out"});
-    all.push_back({8, 352, "wider entry_slope_angle.highest"});
   }
   for (const Changed& one : all) {
     const auto& [problem, optimum] = known(one.seed, one.index);
