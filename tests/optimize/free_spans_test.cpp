@@ -86,13 +86,15 @@ TEST_CASE("a jump of the curvature is found from wherever it is looked for") {
     CHECK(freed->rows->margins() == begun.rows->margins());
     return *freed;
   };
+  const Found far_off = freed_from(0.65);
   // With two knots at that place from the beginning, and nothing else freed.
-  const double where = jump_of(freed_from(0.65));
+  const double where = jump_of(far_off);
   const Found there = with_jump_at(problem, where);
-  for (const double place : {0.2, 0.35, 0.5, 0.65}) {
-    CAPTURE(place, where);
-    const Found freed = freed_from(place);
-    CHECK(freed.objective < there.objective);
+  CAPTURE(where);
+  CHECK(far_off.objective < there.objective);
+  for (const double place : {0.2, 0.35, 0.5}) {
+    CAPTURE(place);
+    CHECK(freed_from(place).objective < there.objective);
   }
 }
 

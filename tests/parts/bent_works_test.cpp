@@ -112,7 +112,7 @@ TEST_CASE("bent works: laps, tabs, slots, holes and openings are those of body, 
       const auto* const sheet = std::get_if<RolledSheet>(&part.body);
       if (sheet == nullptr) continue;
       pairs += require_pattern_of_holes(part);
-      const MeshFacts facts = measure(parts::facets_of(part.body, 5e-7));
+      const MeshFacts facts = measure(parts::facets_of(part.body, testing::thorough() ? 2e-7 : 5e-7));
       CHECK(facts.boundary_edges == 0);
       CHECK(facts.self_intersections == 0);
       CHECK(facts.oriented_outward);

@@ -609,7 +609,7 @@ TEST_CASE("sweep: facets that follow a curve meet at no more than the largest ki
   const CoulombBrachistochrone track(Endpoints{3.0, 2.0}, Friction::from_coefficient(0.2));
   for (const CrossSection& section :
        {CrossSection::u_channel(0.4, 0.1, 0.004), CrossSection::half_pipe(0.4, 0.01)}) {
-    for (const double degrees : {2.0, 0.5}) {
+    for (const double degrees : {2.0, testing::thorough() ? 0.25 : 0.5}) {
       SweepOptions options;
       options.tolerance = 2e-3;
       options.largest_kink = Angle::from_degrees(degrees);

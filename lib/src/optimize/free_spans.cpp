@@ -12,8 +12,8 @@
 namespace glissade::optimizer {
 namespace {
 
-// How wide a jump is drawn, as a share of the core: what that costs is a hundredth of what a pair of knots costs.
-constexpr double kRamp = 0.02 * kPair;  // accuracy: it costs below that of a time
+// How wide a jump is drawn, as a share of the core: of a time whose jumps take 1e-4 on pairs of knots it takes 2e-6.
+constexpr double kRamp = 0.02 * kPair;  // accuracy: twice that of a time
 // Of the length that a span begins with.
 constexpr double kLongestSpan = 2.0;   // taste
 constexpr double kShortestSpan = 0.4;  // taste

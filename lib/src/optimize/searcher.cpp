@@ -543,9 +543,9 @@ void Searcher::settle(Candidate& candidate, Found found) {
 // On a mesh that follows no load yet it costs little, and what follows begins in the better valley.
 Found Searcher::with_far_jumps_moved(const ScaledProblem& problem, Found found) {
   if (!is_optimum(found) || !can_free_spans(problem)) return found;
-  KnotMoves far;
-  far.worth = far.far;
-  std::optional<Found> moved = with_moved_knots(problem, found, options_.tolerance, control_, far).found;
+  KnotMoves moves;
+  moves.worth = moves.far;
+  std::optional<Found> moved = with_moved_knots(problem, found, options_.tolerance, control_, moves).found;
   return moved ? std::move(*moved) : found;
 }
 
