@@ -451,4 +451,15 @@ TEST_CASE("an end that is free both ways needs a speed to be reached, and a leas
   CHECK_THROWS_WITH(optimize(problem), contains_text("a longer and longer track"));
 }
 
+TEST_CASE("a drop that is given is no less for being made the least") {
+  for (const FinishKind kind : {FinishKind::point, FinishKind::level}) {
+    Problem problem = in_run(ObjectiveKind::least_drop);
+    problem.finish.kind = kind;
+    problem.endpoints = {90.0, 46.0};
+    CHECK_THROWS_WITH(optimize(problem),
+                      contains_text("objective: least_drop, of a finish whose drop is given") &&
+                          contains_text("a finish whose drop is free"));
+  }
+}
+
 }  // namespace free_ends_test

@@ -84,9 +84,28 @@ class Course {
         searcher_(problem, options, control, progress) {}
 
   void from_starts() {
-    for (std::size_t way = 0; way < ways_.size(); ++way) {
-      if (stopped_ || (control_.any_track && kept())) return;
-      take(way, searcher_.search(ways_[way]));
+    if (control_.any_track || ways_.size() == 1) {
+      for (std::size_t way = 0; way < ways_.size(); ++way) {
+        if (stopped_ || (control_.any_track && kept())) return;
+        take(way, searcher_.search(ways_[way]));
+      }
+      return;
+    }
+    // The promising ways first: what is plainly behind them need not be searched to its end.
+    std::vector<Searcher::Opening> openings;
+    Vector promises;
+    do {
+      openings.push_back(searcher_.opened(ways_[openings.size()]));
+      promises.push_back(openings.back().promise());
+    } while (openings.size() < ways_.size() && !control_.stop());
+    const double least = *std::min_element(promises.begin(), promises.end());
+    for (const bool first_ones : {true, false}) {
+      for (std::size_t way = 0; way < openings.size(); ++way) {
+        constexpr double kBehind = 0.01;  // taste
+        const bool is_promising = promises[way] <= least + kBehind * std::fabs(least);
+        if (stopped_) return;
+        if (is_promising == first_ones) take(way, searcher_.search(std::move(openings[way]), best_));
+      }
     }
   }
 

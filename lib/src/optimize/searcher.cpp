@@ -72,7 +72,9 @@ CenterlinePtr track_of(const ScaledProblem& problem, const Found& found) {
     double sigma = mesh.knots[i];
     double turn = found.z[layout.turn(i)];
     const auto add_up_to = [&](double to, double turn_there) {
-      segments.push_back({(to - sigma) * length * problem.chord, turn * scale, turn_there * scale});
+      // Two knots at one place are a jump of the curvature.
+      if (to > sigma)
+        segments.push_back({(to - sigma) * length * problem.chord, turn * scale, turn_there * scale});
       sigma = to;
       turn = turn_there;
     };
@@ -231,15 +233,33 @@ class HeldPlaces {
 
 }  // namespace
 
-Candidate Searcher::search(const Passages& passages) {
-  Candidate candidate = begun(passages);
+double Searcher::Opening::promise() const {
+  return first.found && first.found->feasible(kNearlyFeasible) ? first.found->objective : HUGE_VAL;
+}
+
+Searcher::Opening Searcher::opened(const Passages& passages) {
+  Opening opening;
+  opening.candidate = begun(passages);
+  opening.starts = starts(*opening.candidate.rough);
+  if (!is_unlimited() && !opening.starts.empty())
+    opening.first = coarse(*opening.candidate.rough, opening.starts.front());
+  return opening;
+}
+
+Candidate Searcher::search(Opening opening, const std::optional<Candidate>& to_beat) {
+  Candidate candidate = std::move(opening.candidate);
   const ScaledProblem& scaled_problem = *candidate.problem;
+  begin_margins(scaled_problem);
+  to_beat_.reset();
+  // Of a sum of unlike things no share tells what is far behind.
+  if (to_beat && to_beat->kept && problem_.objective.kind != ObjectiveKind::blend)
+    to_beat_ = to_beat->found->objective;
   const bool unlimited = is_unlimited();
   std::vector<Found> others;  // that came to nothing
   // Clipped slopes are often the unclipped ones: what did not do is not tried twice, unless limits were tightened on
   // the way.
   std::vector<std::pair<GuessCurve, Vector>> tried;
-  const std::vector<GuessCurve> curves = starts(*candidate.rough);
+  const std::vector<GuessCurve>& curves = opening.starts;
   for (const GuessCurve& start : curves) {
     const std::pair<GuessCurve, Vector> trial(start, margins_);
     if (std::find(tried.begin(), tried.end(), trial) != tried.end()) continue;
@@ -248,11 +268,11 @@ Candidate Searcher::search(const Passages& passages) {
     if (unlimited) {
       rough.found = from_exact(scaled_problem, start);
     } else {
-      rough = coarse(*candidate.rough, start);
+      rough = tried.size() == 1 ? std::move(opening.first) : coarse(*candidate.rough, start);
     }
     std::optional<Found>& found = rough.found;
     if (control_.stop()) candidate.stopped = true;
-    if (!found) continue;
+    if (!found || is_behind(*found, false)) continue;
     if (control_.any_track) {
       const Vector margins = margins_;
       mend_any(candidate, found->track->mesh(), found->z);
@@ -266,7 +286,7 @@ Candidate Searcher::search(const Passages& passages) {
       more = worth_trying(*candidate.rough, curves, *found, rough.got_lost);
     if (more.empty() || candidate.stopped) {
       refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
-      if (!candidate.kept && !candidate.stopped) others.push_back(std::move(*found));
+      if (!candidate.kept && !candidate.stopped && candidate.found) others.push_back(std::move(*found));
     } else {
       take_best(candidate, *found, more, others);
       if (rough.got_lost) break;
@@ -275,6 +295,7 @@ Candidate Searcher::search(const Passages& passages) {
     const bool converged = candidate.kept && candidate.found->residual <= options_.tolerance;
     if (converged || candidate.stopped) break;
   }
+  to_beat_.reset();
   // Slower ones, better than none.
   for (const Found& other : others) {
     if (candidate.kept || candidate.stopped) break;
@@ -297,7 +318,7 @@ void Searcher::take_best(Candidate& candidate, Found first, const std::vector<Gu
     if (!found) continue;
     const bool known =
         std::any_of(tracks.begin(), tracks.end(), [&](const Found& track) { return is_same(track, *found); });
-    if (!known) tracks.push_back(*std::move(found));
+    if (!known && !is_behind(*found, false)) tracks.push_back(*std::move(found));
   }
   // Which is the best one coarse meshes don't tell: some of them have hardly begun to be fast.
   for (Found& track : tracks) track = laid_anew(problem, on_finer_meshes(problem, problem, std::move(track)));
@@ -308,6 +329,7 @@ void Searcher::take_best(Candidate& candidate, Found first, const std::vector<Gu
   const auto is_converged = [&](const Candidate& end) {
     return end.kept && end.found->residual <= options_.tolerance;
   };
+  std::erase_if(tracks, [this](const Found& track) { return is_behind(track, true); });
   for (Found& track : tracks) {
     if (candidate.stopped) return;
     // One that has not come to its end yet may still become the best.
@@ -494,7 +516,18 @@ void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
     return;
   }
   const ScaledProblem& problem = *candidate.rough;
-  settle(candidate, laid_anew(problem, on_finer_meshes(problem, problem, std::move(found))));
+  found = laid_anew(problem, on_finer_meshes(problem, problem, std::move(found)));
+  if (!is_behind(found, true)) settle(candidate, std::move(found));
+}
+
+bool Searcher::is_behind(const Found& found, bool on_finest) const {
+  constexpr double kFar = 0.25;     // taste: of the objective; finer meshes win some 10 % at most
+  constexpr double kFinest = 0.05;  // taste
+  const double tolerance = on_finest ? options_.tolerance : kCoarseTolerance;
+  const bool is_optimum = found.residual <= tolerance;
+  if (!to_beat_ || !found.feasible(kNearlyFeasible) || (!on_finest && !is_optimum)) return false;
+  const double share = on_finest && is_optimum ? kFinest : kFar;
+  return found.objective > *to_beat_ + share * std::fabs(*to_beat_);
 }
 
 void Searcher::settle(Candidate& candidate, Found found) {
@@ -827,9 +860,13 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
     control_.stop = stop;
     next.stopped = next.stopped || stopped;
     // Where only short ways are gone, and none was, none will be; nor where no more is asked for than the round before.
-    const bool asks_same = rides_to_end > kHoldingRounds && asks_for_no_more(next, found);
+    const bool is_same = next.z == found.z;
+    const bool asks_same = is_same && asks_for_no_more(next, found);
+    const bool tightens = rides_to_end > kHoldingRounds;
     const bool stays =
-        (control_.is_close || asks_same) && !found.stopped && !is_optimum(next) && next.z == found.z;
+        is_same && (control_.is_close || (asks_same && tightens)) && !found.stopped && !is_optimum(next);
+    // Places that are held already are no help.
+    if (asks_same && judgement.arrived) rides_to_end = std::max(rides_to_end, kHoldingRounds);
     found = std::move(next);
     if (stays) break;
   }

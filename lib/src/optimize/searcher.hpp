@@ -46,8 +46,24 @@ class Searcher {
            const Progress& progress)
       : problem_(problem), options_(options), control_(control), progress_(progress) {}
 
+  struct Rough {
+    std::optional<Found> found;
+    bool got_lost = false;  ///< the descent did, and was led back by way of any track that keeps the limits
+  };
+  /// One way past the keep-outs as the first of the product's own starts shows it, on a coarse mesh.
+  struct Opening {
+    Candidate candidate;
+    std::vector<GuessCurve> starts;
+    Rough first;  ///< nothing where the search is to begin with the exact solution
+
+    /// The objective to expect; huge where nothing keeps the limits.
+    [[nodiscard]] double promise() const;
+  };
+  [[nodiscard]] Opening opened(const Passages& passages);
   /// From the product's own starts.
-  [[nodiscard]] Candidate search(const Passages& passages);
+  /// @param to_beat  the best one by other ways: tracks that are plainly behind it are not searched to their end
+  [[nodiscard]] Candidate search(Opening opening, const std::optional<Candidate>& to_beat = std::nullopt);
+  [[nodiscard]] Candidate search(const Passages& passages) { return search(opened(passages)); }
   /// From a track that keeps the limits: the two below, or the third where any track will do.
   [[nodiscard]] Candidate search_from(const Passages& passages, const Mesh& mesh, const Vector& z);
   /// A search from a track that keeps the limits, on its way: carried to the finer meshes, which tell how good it can be.
@@ -105,10 +121,6 @@ class Searcher {
   [[nodiscard]] static Mesh mesh_again(const Found& found);
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const;
   [[nodiscard]] std::optional<Found> from_exact(const ScaledProblem& problem, const GuessCurve& start);
-  struct Rough {
-    std::optional<Found> found;
-    bool got_lost = false;  ///< the descent did, and was led back by way of any track that keeps the limits
-  };
   [[nodiscard]] Rough coarse(const ScaledProblem& problem, const GuessCurve& start);
   /// On a mesh laid for the start alone.
   [[nodiscard]] Found coarsely(const ScaledProblem& problem, const GuessCurve& start, std::size_t pieces);
@@ -126,6 +138,8 @@ class Searcher {
   [[nodiscard]] std::optional<Found> bends_shifted(const ScaledProblem& problem, const Found& known);
   /// @return whether a search on a mesh ended in a better track than the best one, which it is then
   bool ends_better(const Mesh& mesh, const Vector& z, Candidate& best);
+  /// Whether a track is plainly behind the one to beat, whatever finer meshes win.
+  [[nodiscard]] bool is_behind(const Found& found, bool on_finest) const;
   /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
   void take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
                  std::vector<Found>& others);
@@ -200,6 +214,7 @@ class Searcher {
   const OptimizeOptions& options_;
   SearchControl& control_;
   const Progress& progress_;
+  std::optional<double> to_beat_;          ///< objective of the best track by other ways
   std::optional<double> finer_mesh_wins_;  ///< as last looked at
   double moves_promise_ = 0.0;             ///< as last looked at
   Vector multipliers_ahead_;               ///< as last looked at

@@ -95,6 +95,10 @@ void check_objective(const Problem& problem, Checker& check) {
                   "it is the speed to be reached that says how far the track has to fall",
                   "exit_speed.lowest, or a finish with a run or a drop");
   }
+  if (problem.objective.kind == ObjectiveKind::least_drop) {
+    check.require(!fixes_drop(problem.finish.kind), "objective: least_drop, of a finish whose drop is given",
+                  "it is the least height between start and finish", "a finish whose drop is free");
+  }
   if (problem.objective.kind == ObjectiveKind::least_peak_wear) {
     check.require(dynamic_cast<const BulkStream*>(problem.body.law.get()) != nullptr,
                   "objective: least_peak_wear, of a body that is no stream",
