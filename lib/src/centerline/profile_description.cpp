@@ -806,18 +806,23 @@ std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
   if (descriptions.changes() != seen_best) add_beside_best();
   if (!descriptions.best()) return {};
   const PieceFit& fit = *descriptions.best();
-  Description found{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit), {}};
-  if (scattered) {
-    const ClothoidSpline near = fit.profile().spline();
-    const PlacedPoints last = placed_beside(near, from(fit.profile().start(points.front()), points));
-    const PlacedPoints deciding = means_of_neighbours(last, kMostDeciding);
-    const double seen = share * std::max(std::sqrt(noise), scatter_of(near, last));
-    PiecewiseProfile profile = fit.profile();
-    profile.offset = 0.0;
-    found.largest_curvature =
-        Describer(beside(near, deciding), deciding.places, profile, seen).largest_curvature();
-  }
-  return found;
+  return Description{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit)};
+}
+
+std::optional<CurvatureRange> largest_curvature_of(const Description& description,
+                                                   const std::vector<Vec2>& points,
+                                                   const std::optional<LastPlaces>& places) {
+  if (!description.scattered) return {};
+  const auto count = static_cast<double>(points.size());
+  const double share = std::sqrt(std::min(1.0, static_cast<double>(kMostDeciding) / count));
+  const double noise = places ? noise_of_rounding(points, *places) : 0.0;
+  PiecewiseProfile profile = description.profile;
+  const ClothoidSpline near = profile.spline();
+  const PlacedPoints last = placed_beside(near, from(profile.start(points.front()), points));
+  const PlacedPoints deciding = means_of_neighbours(last, kMostDeciding);
+  const double seen = share * std::max(std::sqrt(noise), scatter_of(near, last));
+  profile.offset = 0.0;
+  return Describer(beside(near, deciding), deciding.places, profile, seen).largest_curvature();
 }
 
 }  // namespace glissade::centerline

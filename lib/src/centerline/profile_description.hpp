@@ -19,7 +19,6 @@ struct Description {
   double mean_square = 0.0;  // of the points' distances [m^2]
   bool scattered = false;    // the points show noise
   double freedom = 0.0;      // numbers that the points had to yield; the places of breaks count twice
-  std::optional<CurvatureRange> largest_curvature;  // where they show noise
 };
 
 /// @param points     in order, none repeated
@@ -29,5 +28,12 @@ struct Description {
 [[nodiscard]] std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
                                                             const ClothoidSpline& reference,
                                                             const std::optional<LastPlaces>& places);
+
+/// What points that show noise leave open of the largest curvature, by all that describes them about as well.
+/// Cost: mostly more than that of the description.
+/// @return none where they show none, or nothing is as good
+[[nodiscard]] std::optional<CurvatureRange> largest_curvature_of(const Description& description,
+                                                                 const std::vector<Vec2>& points,
+                                                                 const std::optional<LastPlaces>& places);
 
 }  // namespace glissade::centerline

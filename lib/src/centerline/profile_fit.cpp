@@ -384,19 +384,26 @@ FittedCurve smooth_curve(ClothoidSpline curve, Vec2 start) {
   return {std::move(curve), start, between, 0.0, {}};
 }
 
+double largest_curvature_of(const ClothoidSpline& curve) {
+  double most = 0.0;
+  for (const ClothoidSegment& segment : curve.segments())
+    most = std::max({most, std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)});
+  return most;
+}
+
 /// The range with the curve's own largest curvature in it.
 std::optional<CurvatureRange> widened(std::optional<CurvatureRange> range, const ClothoidSpline& curve) {
   if (!range) return range;
-  double own = 0.0;
-  for (const ClothoidSegment& segment : curve.segments())
-    own = std::max({own, std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)});
+  const double own = largest_curvature_of(curve);
   return CurvatureRange{std::min(range->least, own), std::max(range->greatest, own)};
 }
 
-/// A curve found, and whether few pieces describe it.
+/// A curve found, and the few pieces that it consists of, if it does.
 struct Found {
   FittedCurve fitted;
-  bool described = false;
+  std::optional<Description> description;
+
+  [[nodiscard]] bool described() const { return description.has_value(); }
 };
 
 Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places) {
@@ -404,16 +411,38 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
   Fitter fitter(points, noise);
   ClothoidSpline smooth = fitter.validated_spline();
   if (points.size() >= kFewestToValidate) {
-    const auto description = describe_in_pieces(points, smooth, places);
+    auto description = describe_in_pieces(points, smooth, places);
     if (description && describes_better(*description, points, smooth, fitter.best_cost(), noise)) {
-      ClothoidSpline curve = description->profile.spline();
-      const auto range = widened(description->largest_curvature, curve);
-      return {{std::move(curve), description->profile.start(points.front()), 0.0, 0.0, range}, true};
+      const Vec2 start = description->profile.start(points.front());
+      return {{description->profile.spline(), start, 0.0, 0.0, {}}, std::move(description)};
     }
   }
   FittedCurve fitted = smooth_curve(std::move(smooth), points.front());
   fitted.largest_curvature = widened(fitter.largest_curvature(), fitted.curve);
-  return {std::move(fitted)};
+  return {std::move(fitted), {}};
+}
+
+/// What points leave open of the largest curvature of a curve found.
+std::optional<CurvatureRange> curvature_range(const Found& found, const std::vector<Vec2>& points,
+                                              const std::optional<LastPlaces>& places) {
+  if (!found.described()) return found.fitted.largest_curvature;
+  return widened(largest_curvature_of(*found.description, points, places), found.fitted.curve);
+}
+
+/// What exact points leave open of the largest curvature of the curve through them: by how much every second one of them has
+/// another.
+/// @return none where those are too few to tell
+std::optional<CurvatureRange> range_by_half(const ClothoidSpline& through, const std::vector<Vec2>& points) {
+  // Twice as dense, splines of fifth degree come nearer by a factor of sixteen, where points are few for their waves by less.
+  constexpr double kLeft = 0.25;
+  std::vector<Vec2> half;
+  for (std::size_t i = 0; i < points.size(); i += 2) half.push_back(points[i]);
+  if (half.size() < kFewestFollowed) return {};
+  const auto other = follow_points(half);
+  if (!other) return {};
+  const double most = largest_curvature_of(through);
+  const double open = kLeft * std::fabs(most - largest_curvature_of(other->curve));
+  return CurvatureRange{std::max(0.0, most - open), most + open};
 }
 
 /// Whether a curve through the points holds what the curve found leaves out, or leaves less open between them.
@@ -435,11 +464,11 @@ bool follows_better(const FollowedProfile& followed, const Found& found, const s
   constexpr double kFewPieces = 3e-8;
   const double open = found.fitted.between;
   if (followed.recovered && !places)
-    return found.described ? missed > kFewPieces : open > kLittleOpen * length;
+    return found.described() ? missed > kFewPieces : open > kLittleOpen * length;
   const bool leaves_less_open = followed.between < open && open > kLittleOpen * length;
-  if (!found.described && followed.exact && !places && leaves_less_open) return true;
+  if (!found.described() && followed.exact && !places && leaves_less_open) return true;
   return points.size() >= kFewestToValidate &&
-         missed > std::max(kPlainly * noise, found.described ? kBuilt : kMet);
+         missed > std::max(kPlainly * noise, found.described() ? kBuilt : kMet);
 }
 
 }  // namespace
@@ -452,11 +481,17 @@ FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFi
   const std::optional<LastPlaces> places = last_places(points);
   Found found = smooth_or_described(points, places);
   if (places) found.fitted.last_place = std::max(places->x, places->y);
-  if (points.size() < kFewestFollowed) return std::move(found.fitted);
-  auto followed = follow_points(thinned(points, kMostFollowed));
-  if (!followed || !follows_better(*followed, found, points, places)) return std::move(found.fitted);
-  const auto range =
-      followed->recovered ? std::nullopt : widened(found.fitted.largest_curvature, followed->curve);
+  std::vector<Vec2> to_follow = thinned(points, kMostFollowed);
+  auto followed = points.size() < kFewestFollowed ? std::nullopt : follow_points(to_follow);
+  if (!followed || !follows_better(*followed, found, points, places)) {
+    found.fitted.largest_curvature = curvature_range(found, points, places);
+    return std::move(found.fitted);
+  }
+  std::optional<CurvatureRange> range;
+  if (!followed->recovered) {
+    if (followed->exact && !places) range = range_by_half(followed->curve, to_follow);
+    if (!range) range = widened(curvature_range(found, points, places), followed->curve);
+  }
   return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, range};
 }
 

@@ -1,6 +1,7 @@
 // A profile of few pieces, fitted to points: Gauss-Newton in the lengths and curvatures of the pieces.
 #include "profile_pieces.hpp"
 
+#include "glissade/core/many_angles.hpp"
 #include "glissade/core/math.hpp"
 
 #include "chebyshev_series.hpp"
@@ -315,30 +316,67 @@ PieceFit::Ways PieceFit::ways_at(const ProfilePiece& piece, double t) {
   return ways;
 }
 
-PieceFit::Panel PieceFit::along(const ProfilePiece& piece, const Laid& laid, double distance) const {
+/// Those of Gauss's rule from where a panel begins, the middle one first, and the end.
+struct PieceFit::Nodes {
   using Rule = boost::math::quadrature::gauss<double, kPieceGaussPoints>;
+  static_assert(kPieceGaussPoints % 2 == 1, "the first of Boost's nodes is the middle one");
+  static constexpr std::size_t kCount = kPieceGaussPoints;
+
+  Nodes(const ProfilePiece& piece, const Laid& laid, const Panel& panel, double distance)
+      : half(0.5 * (distance - panel.from)) {
+    const double middle = panel.from + half;
+    std::array<double, kCount + 1> slope;
+    place[0] = middle;
+    weight[0] = half * Rule::weights()[0];
+    for (std::size_t i = 1; i < Rule::abscissa().size(); ++i) {
+      place[2 * i - 1] = middle + -half * Rule::abscissa()[i];
+      place[2 * i] = middle + half * Rule::abscissa()[i];
+      weight[2 * i - 1] = weight[2 * i] = half * Rule::weights()[i];
+    }
+    for (std::size_t i = 0; i < kCount; ++i) slope[i] = slope_after(laid.slope, piece, place[i]);
+    slope[kCount] = end_slope = slope_after(laid.slope, piece, distance);
+    math::sines_cosines(slope, sine, cosine);
+  }
+  [[nodiscard]] Vec2 step(std::size_t i) const { return {weight[i] * cosine[i], weight[i] * sine[i]}; }
+  [[nodiscard]] Vec2 end_tangent() const { return {cosine[kCount], sine[kCount]}; }
+
+  double half;
+  double end_slope;
+  std::array<double, kCount> place, weight;
+  std::array<double, kCount + 1> sine, cosine;
+};
+
+const PieceFit::Panel& PieceFit::panel_at(const Laid& laid, double distance) {
   const auto next = std::upper_bound(laid.panels.begin() + 1, laid.panels.end(), distance,
                                      [](double value, const Panel& panel) { return value < panel.from; });
-  const Panel& panel = *std::prev(next);
+  return *std::prev(next);
+}
+
+PieceFit::Place PieceFit::place_along(const ProfilePiece& piece, const Laid& laid, double distance) {
   if (piece.shape == PieceShape::straight) {
-    return {distance, laid.slope, distance * tangent_of(laid.slope), {}};
+    const Vec2 tangent = tangent_of(laid.slope);
+    return {distance * tangent, tangent};
   }
-  const double half = 0.5 * (distance - panel.from);
-  Panel sum{distance, slope_after(laid.slope, piece, distance), panel.position, panel.turned};
+  const Panel& panel = panel_at(laid, distance);
+  const Nodes nodes(piece, laid, panel, distance);
+  Place place{panel.position, nodes.end_tangent()};
+  for (std::size_t i = 0; i < Nodes::kCount; ++i) place.position = place.position + nodes.step(i);
+  return place;
+}
+
+PieceFit::Panel PieceFit::along(const ProfilePiece& piece, const Laid& laid, double distance) {
+  if (piece.shape == PieceShape::straight)
+    return {distance, laid.slope, distance * tangent_of(laid.slope), {}};
+  const Panel& panel = panel_at(laid, distance);
+  const Nodes nodes(piece, laid, panel, distance);
+  Panel sum{distance, nodes.end_slope, panel.position, panel.turned};
   const std::size_t ways_count = 3 + piece.swellings;
-  const auto add = [&](double offset, double weight) {
-    const double t = panel.from + half + offset;
-    const Vec2 tangent = half * weight * tangent_of(slope_after(laid.slope, piece, t));
-    sum.position = sum.position + tangent;
-    const Ways ways = ways_at(piece, t);
-    for (std::size_t w = 0; w < ways_count; ++w) {
-      sum.turned[w] = sum.turned[w] + ways[w] * perpendicular(tangent);
-    }
-  };
-  add(0.0, Rule::weights()[0]);
-  for (std::size_t i = 1; i < Rule::abscissa().size(); ++i) {
-    add(-half * Rule::abscissa()[i], Rule::weights()[i]);
-    add(half * Rule::abscissa()[i], Rule::weights()[i]);
+  for (std::size_t i = 0; i < Nodes::kCount; ++i) {
+    const Vec2 step = nodes.step(i);
+    sum.position = sum.position + step;
+    const Ways ways = ways_at(piece, nodes.place[i]);
+    for (std::size_t w = 0; w < ways_count; ++w)
+      sum.turned[w] = sum.turned[w] + ways[w] * perpendicular(step);
   }
   return sum;
 }
@@ -372,27 +410,25 @@ double PieceFit::project() {
   const double length = profile_.length();
   const double stretch = length / places_.back();
   double sum = 0.0;
-  nearest_.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     double s = std::min(places_[i] * stretch, length);
     Vec2 away;
-    Vec2 tangent;
+    Place here;
     const bool last = i + 1 == points_.size();
     for (int step = 0; step <= kNewtonSteps; ++step) {
       if (last) s = length;
       const std::size_t k = piece_at(s);
-      const Panel& here = nearest_[i] = along(profile_.pieces[k], laid_[k], s - laid_[k].from);
-      tangent = tangent_of(here.slope);
+      here = place_along(profile_.pieces[k], laid_[k], s - laid_[k].from);
       away = points_[i] - (laid_[k].start + here.position);
-      const double next = std::clamp(s + dot(away, tangent), 0.0, length);
+      const double next = std::clamp(s + dot(away, here.tangent), 0.0, length);
       const double moved = std::fabs(next - s);
       if (last || step == kNewtonSteps || moved <= kNear * length) break;
       s = next;
     }
     places_[i] = s;
-    const double across = dot(away, perpendicular(tangent));
+    const double across = dot(away, perpendicular(here.tangent));
     sum += across * across;
-    if (last) sum += dot(away, tangent) * dot(away, tangent);
+    if (last) sum += dot(away, here.tangent) * dot(away, here.tangent);
   }
   return sum;
 }
@@ -459,7 +495,7 @@ PieceFit::System PieceFit::linearized() const {
   };
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const std::size_t k = piece_at(places_[i]);
-    const Panel& here = nearest_[i];
+    const Panel here = along(profile_.pieces[k], laid_[k], places_[i] - laid_[k].from);
     const Vec2 position = laid_[k].start + here.position;
     const Vec2 away = points_[i] - position;
     const Vec2 tangent = tangent_of(here.slope);

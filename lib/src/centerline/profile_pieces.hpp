@@ -127,6 +127,11 @@ class PieceFit {
     Vec2 position;                   // from where the piece begins
     std::array<Vec2, kWays> turned;  // integrals of the ways times the perpendicular of the tangent
   };
+  /// A place of a piece.
+  struct Place {
+    Vec2 position;  // from where the piece begins
+    Vec2 tangent;
+  };
   [[nodiscard]] static Ways ways_at(const ProfilePiece& piece, double t);
   struct Laid {
     double from = 0.0;  // arc length
@@ -139,7 +144,11 @@ class PieceFit {
 
   void number_unknowns();
   void lay_out();
-  [[nodiscard]] Panel along(const ProfilePiece& piece, const Laid& laid, double distance) const;
+  struct Nodes;
+  [[nodiscard]] static const Panel& panel_at(const Laid& laid, double distance);
+  [[nodiscard]] static Panel along(const ProfilePiece& piece, const Laid& laid, double distance);
+  /// The same place, without what the unknowns do there.
+  [[nodiscard]] static Place place_along(const ProfilePiece& piece, const Laid& laid, double distance);
   [[nodiscard]] std::size_t piece_at(double s) const;
   /// Moves the points' places to where the curve is nearest. @return sum of the squared distances
   double project();
@@ -156,7 +165,6 @@ class PieceFit {
   std::vector<Columns> columns_;
   std::size_t unknowns_ = 0;
   std::vector<Laid> laid_;
-  std::vector<Panel> nearest_;  // to each point
   double square_sum_ = 0.0;
   double scale_ = 1.0;
   mutable std::optional<SymmetricMatrix> factor_;
