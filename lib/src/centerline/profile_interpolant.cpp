@@ -185,7 +185,7 @@ Nodes nodes_along(const InterpolatingSpline& spline, const std::vector<double>& 
 /// So many nodes that chords leave little of the curvature, and with values that turn as the curve does.
 Nodes nodes_for_clothoids(const InterpolatingSpline& spline, const std::vector<double>& parameters) {
   constexpr double kLittle = 2e-3;
-  constexpr std::size_t kMostPerGap = 4;
+  constexpr std::size_t kMostPerGap = 16;
   constexpr std::size_t kMostNodes = 4000;
   Nodes nodes = nodes_along(spline, parameters, 1);
   const auto largest = [](const std::vector<double>& values) {
