@@ -803,6 +803,21 @@ MeshTrack Searcher::relaid(const ScaledProblem& problem, const Found& found) con
   return again;
 }
 
+void Searcher::take_if_better(Candidate& candidate, const Found& found, const CenterlinePtr& track,
+                              const referee::Judgement& judgement) const {
+  const bool kept = judgement.arrived && judgement.worst <= options_.limit_tolerance;
+  const bool better = !candidate.found || (kept && !candidate.kept) ||
+                      (kept == candidate.kept && found.objective < candidate.found->objective);
+  if (!better) return;
+  candidate.finer_mesh_wins = finer_mesh_wins_;
+  candidate.moves_promise = moves_promise_;
+  candidate.multipliers_ahead = multipliers_ahead_;
+  candidate.found = found;
+  candidate.track = track;
+  candidate.judgement = judgement;
+  candidate.kept = kept;
+}
+
 void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
   const ScaledProblem& problem = *candidate.problem;
   const std::function<bool()> stop = control_.stop;
@@ -813,18 +828,8 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
   for (int round = 0; round < kTighteningRounds; ++round) {
     const CenterlinePtr track = track_of(problem, found);
     const referee::Judgement judgement = referee::judge_track(problem_, track, referee::kRefereeSamples);
+    take_if_better(candidate, found, track, judgement);
     const bool kept = judgement.arrived && judgement.worst <= options_.limit_tolerance;
-    const bool better = !candidate.found || (kept && !candidate.kept) ||
-                        (kept == candidate.kept && found.objective < candidate.found->objective);
-    if (better) {
-      candidate.finer_mesh_wins = finer_mesh_wins_;
-      candidate.moves_promise = moves_promise_;
-      candidate.multipliers_ahead = multipliers_ahead_;
-      candidate.found = found;
-      candidate.track = track;
-      candidate.judgement = judgement;
-      candidate.kept = kept;
-    }
     if (kept) break;
     if (found.stopped) {
       // Asked to end on a track that all but keeps its limits: a little more work makes it one that does.

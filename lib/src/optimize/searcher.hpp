@@ -185,6 +185,9 @@ class Searcher {
   /// Lets the referee judge and mends what it finds, round by round.
   /// @param places  at which limits are held beside the stations from the beginning, of the core's length
   void mend(Candidate& candidate, Found found, const Vector& places = {});
+  /// Of the tracks on that way the best one counts.
+  void take_if_better(Candidate& candidate, const Found& found, const CenterlinePtr& track,
+                      const referee::Judgement& judgement) const;
   /// Where holding limits at further places made an optimum much dearer: that one, or the optimum on a mesh whose pieces are halved
   /// around these places. A piece of one linear curvature that broke a limit within may keep it at a price that two don't pay.
   [[nodiscard]] Found cheaper_of(const ScaledProblem& problem, Found next, const Found& found,
