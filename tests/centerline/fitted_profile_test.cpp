@@ -364,7 +364,7 @@ TEST_CASE("the smallest radius of a wave is known from nine points a period on, 
       }
       INFO(each << " points a period, " << periods << " periods: radius " << 1.0 / own << " m for "
                 << 1.0 / largest);
-      CHECK(profile.max_deviation() <= 0.1 * kHeight);
+      CHECK((profile.max_deviation() <= 0.01 * kHeight || profile.leaves_pattern() || profile.leaves_gaps()));
       CHECK(own == Approx(largest).epsilon(each < 8 ? 0.08 : 0.035));
       // Not by what a few pieces make of it that are not the curve.
       if (each <= 6) CHECK(profile.leaves_radius_open());
