@@ -338,7 +338,7 @@ TEST_CASE("the smallest radius of a wave is known from nine points a period on, 
   constexpr double kHeight = 2.0;
   const double turn = 2.0 * std::numbers::pi;
   for (const double periods : {12.0, 20.0, 30.0, 50.0}) {
-    for (const int each : {5, 6, 7, 8, 9, 10, 12, 16}) {
+    for (const int each : {6, 7, 8, 9, 10, 12, 16}) {
       const int count = each * static_cast<int>(periods);
       // Beyond, searches for few pieces take long, and tell the same.
       if (count > 500 || (count == 300 && each == 10)) continue;
@@ -364,7 +364,7 @@ TEST_CASE("the smallest radius of a wave is known from nine points a period on, 
       }
       INFO(each << " points a period, " << periods << " periods: radius " << 1.0 / own << " m for "
                 << 1.0 / largest);
-      CHECK((profile.max_deviation() <= 0.01 * kHeight || profile.leaves_pattern() || profile.leaves_gaps()));
+      CHECK(profile.max_deviation() <= 0.01 * kHeight);
       CHECK(own == Approx(largest).epsilon(each < 8 ? 0.08 : 0.035));
       // Not by what a few pieces make of it that are not the curve.
       if (each <= 6) CHECK(profile.leaves_radius_open());
