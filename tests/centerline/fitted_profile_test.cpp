@@ -366,7 +366,7 @@ TEST_CASE("the smallest radius of a wave is known from nine points a period on, 
                 << 1.0 / largest);
       CHECK(profile.max_deviation() <= 0.01 * kHeight);
       CHECK(own == Approx(largest).epsilon(each < 8 ? 0.08 : 0.035));
-      // Not by what a few pieces make of it that are not the curve.
+      // Seven and eight a wave lie at the edge.
       if (each <= 6) CHECK(profile.leaves_radius_open());
       if (each >= 9) CHECK_FALSE(profile.leaves_radius_open());
     }

@@ -349,23 +349,22 @@ TEST_CASE("the shipped designs with limits are solved to the optimum") {
 namespace {
 
 /// A channel whose floor keeps clear of a beam by itself while its walls run through it.
-std::string past_beam() {
-  return "glissade: 1\n"
-         "name: U-channel past a beam\n"
-         "track: {start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}\n"
-         "body: {friction_angle: 17 deg}\n"
-         "limits:\n"
-         "  keep_outs:\n"
-         "    - {outline: [[1.2 m, 5 m], [1.6 m, 5 m], [1.6 m, 5.5 m], [1.2 m, 5.5 m]], clearance: 100 mm}\n"
-         "cross_section: {kind: u-channel, width: 400 mm, wall_height: 600 mm, thickness: 4 mm}\n"
-         "mesh: {tolerance: 2 mm}\n"
-         "export: [stl]\n";
-}
+constexpr const char* kPastBeam =
+    "glissade: 1\n"
+    "name: U-channel past a beam\n"
+    "track: {start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}\n"
+    "body: {friction_angle: 17 deg}\n"
+    "limits:\n"
+    "  keep_outs:\n"
+    "    - {outline: [[1.2 m, 5 m], [1.6 m, 5 m], [1.6 m, 5.5 m], [1.2 m, 5.5 m]], clearance: 100 mm}\n"
+    "cross_section: {kind: u-channel, width: 400 mm, wall_height: 600 mm, thickness: 4 mm}\n"
+    "mesh: {tolerance: 2 mm}\n"
+    "export: [stl]\n";
 
 }  // namespace
 
 TEST_CASE("walls keep clear of a beam that the floor passes by far") {
-  const DesignFile file(past_beam());
+  const DesignFile file(kPastBeam);
   const json solid = solved(file);
   CHECK(solid["clearances_from"] == "solid");
   CHECK(solid["search"]["status"] == "optimal");
@@ -383,7 +382,7 @@ TEST_CASE("walls keep clear of a beam that the floor passes by far") {
 }
 
 TEST_CASE("a track whose walls run through a beam is not called kept, whatever its kind") {
-  const DesignFile file(past_beam());
+  const DesignFile file(kPastBeam);
   for (const char* kind : {"straight", "cycloid", "constant-speed", "no-curvature-load"}) {
     const Outcome outcome =
         solve(file, {"--set", std::string("centerline.kind=") + kind, "--set",
@@ -397,7 +396,7 @@ TEST_CASE("a track whose walls run through a beam is not called kept, whatever i
 }
 
 TEST_CASE("headroom counts where it is higher than the walls, and without a section too") {
-  const DesignFile file(past_beam());
+  const DesignFile file(kPastBeam);
   const json high = solved(file, {"--set", "limits.headroom=700mm"});
   CHECK(check_of(high, "keep_outs[0]")["closest"]["part"] == "headroom");
   const json low = solved(file, {"--set", "limits.headroom=200mm"});
@@ -412,7 +411,7 @@ TEST_CASE("headroom counts where it is higher than the walls, and without a sect
 }
 
 TEST_CASE("the summary says what clearances are measured from") {
-  const DesignFile file(past_beam());
+  const DesignFile file(kPastBeam);
   // Higher than the start, the beam shapes no track: there is little to search.
   const std::string higher =
       "limits.keep_outs.0.outline=[[1.2 m, 7 m], [1.6 m, 7 m], [1.6 m, 7.5 m], [1.2 m, 7.5 m]]";
@@ -447,7 +446,7 @@ TEST_CASE("leads that are longer than what is left are named, with a length that
 }
 
 TEST_CASE("a finish without room for the section is said at once, with what would do") {
-  const DesignFile file(past_beam());
+  const DesignFile file(kPastBeam);
   // A ceiling 0.4 m above the finish: walls of 0.6 m do not fit under it, whatever the slope there.
   const std::vector<std::string> low = {
       "--set",

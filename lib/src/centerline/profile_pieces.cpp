@@ -322,8 +322,8 @@ struct PieceFit::Nodes {
   static_assert(kPieceGaussPoints % 2 == 1, "the first of Boost's nodes is the middle one");
   static constexpr std::size_t kCount = kPieceGaussPoints;
 
-  Nodes(const ProfilePiece& piece, const Laid& laid, const Panel& panel, double distance)
-      : half(0.5 * (distance - panel.from)) {
+  Nodes(const ProfilePiece& piece, const Laid& laid, const Panel& panel, double distance) {
+    const double half = 0.5 * (distance - panel.from);
     const double middle = panel.from + half;
     std::array<double, kCount + 1> slope;
     place[0] = middle;
@@ -340,7 +340,6 @@ struct PieceFit::Nodes {
   [[nodiscard]] Vec2 step(std::size_t i) const { return {weight[i] * cosine[i], weight[i] * sine[i]}; }
   [[nodiscard]] Vec2 end_tangent() const { return {cosine[kCount], sine[kCount]}; }
 
-  double half;
   double end_slope;
   std::array<double, kCount> place, weight;
   std::array<double, kCount + 1> sine, cosine;

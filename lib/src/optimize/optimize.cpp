@@ -84,11 +84,9 @@ class Course {
         searcher_(problem, options, control, progress) {}
 
   void from_starts() {
-    if (control_.any_track || ways_.size() == 1) {
-      for (std::size_t way = 0; way < ways_.size(); ++way) {
-        if (stopped_ || (control_.any_track && kept())) return;
+    if (control_.any_track) {
+      for (std::size_t way = 0; way < ways_.size() && !stopped_ && !kept(); ++way)
         take(way, searcher_.search(ways_[way]));
-      }
       return;
     }
     // The promising ways first: what is plainly behind them need not be searched to its end.
