@@ -175,45 +175,57 @@ std::optional<Found> with_knots_at_rest(const ScaledProblem& problem, const Foun
   return with_moved_knots(problem, found, options.tolerance, control, kMoves).found;
 }
 
-Priced priced(const ScaledProblem& problem, Found found, const Vector& ahead, const OptimizeOptions& options,
+/// Takes a track for the finest one where it is the best so far.
+/// @param left  of what it wins finer meshes would win as much again
+void take_finest(const Found& found, double left, Found& finest, double& rest) {
+  if (!(found.objective < finest.objective)) return;
+  rest = left * (finest.objective - found.objective);
+  finest = found;
+}
+
+Priced priced(const ScaledProblem& problem, Found found, Vector ahead, const OptimizeOptions& options,
               SearchControl& control, std::optional<Found>& moved) {
   constexpr int kRounds = 3;                // budget
   constexpr std::size_t kMostPieces = 200;  // budget
   const Vector begun = multipliers_of(problem, found);
   bool same = ahead.empty() || same_prices(begun, ahead);
+  // A limit on the rate of curvature lets nothing jump and ties all pieces together. What one program tells of a finer mesh
+  // is rough then, and the optimum on it tells whether prices are others.
+  const bool ties = is_smooth(problem);
+  std::optional<Found> halved;
+  if (!same && ties) {
+    halved = on_finer_mesh(problem, found, with_all_halved(*found.track, found.z), options, control);
+    if (halved) ahead = multipliers_of(problem, *halved);
+    same = halved && same_prices(begun, ahead);
+  }
   const bool refined = !same;
-  if (refined) moved = with_knots_at_rest(problem, found, options, control);
+  if (refined && !ties) moved = with_knots_at_rest(problem, found, options, control);
   if (moved) found = *moved;
   Found finest = found;
   double rest = 0.0;
-  if (const std::optional<MeshTrack> finer = halved_beside_jumps(found)) {
-    if (auto next = on_finer_mesh(problem, found, *finer, options, control)) found = std::move(*next);
-  }
-  if (found.objective < finest.objective) {
-    // Pieces half as long are twice as good: four times halved they leave a fifteenth of what that wins.
-    constexpr double kLeft = 15.0;  // theory
-    rest = (finest.objective - found.objective) / kLeft;
-    finest = found;
-  }
-  // Where a finer mesh has other prices, they are taken from there, and from a finer one still until they stay.
   std::optional<Found> before;
   Sequence sequence;
+  const bool begins_halved = refined && halved;
+  if (begins_halved) {
+    sequence.add(begun);
+    before = std::exchange(found, std::move(*halved));
+    take_finest(found, 1.0, finest, rest);
+  } else if (const std::optional<MeshTrack> finer = halved_beside_jumps(found)) {
+    if (auto next = on_finer_mesh(problem, found, *finer, options, control)) found = std::move(*next);
+    // Pieces half as long are twice as good: four times halved they leave a fifteenth of what that wins.
+    take_finest(found, 1.0 / 15.0, finest, rest);
+  }
+  // Where a finer mesh has other prices, they are taken from there, and from a finer one still until they stay.
   sequence.add(multipliers_of(problem, found));
-  for (int round = 0; !same && round < kRounds; ++round) {
+  for (int round = begins_halved ? 1 : 0; !same && round < kRounds; ++round) {
     if (found.track->mesh().knots.size() > kMostPieces) break;
-    // Where those bind whose prices still change: halving other pieces, too, hardly changes a digit. But a limit on the
-    // rate of curvature ties all pieces together.
+    // Where those bind whose prices still change: halving other pieces, too, hardly changes a digit.
     const MeshTrack finer =
-        round == 0 && is_smooth(problem)
-            ? with_all_halved(*found.track, found.z)
-            : with_halved_near(found, round == 0 ? other_prices(begun, ahead) : sequence.changing());
+        with_halved_near(found, round == 0 ? other_prices(begun, ahead) : sequence.changing());
     auto next = on_finer_mesh(problem, found, finer, options, control);
     if (!next) break;
     before = std::exchange(found, std::move(*next));
-    if (found.objective < finest.objective) {
-      rest = finest.objective - found.objective;
-      finest = found;
-    }
+    take_finest(found, 1.0, finest, rest);
     sequence.add(multipliers_of(problem, found));
     same = sequence.stays();
   }

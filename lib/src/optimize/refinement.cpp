@@ -184,7 +184,8 @@ MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z) {
 Remainder remainder_of(const ScaledProblem& problem, const Found& found, SearchControl& control) {
   const std::vector<bool> halved = worth_a_knot(found.track->mesh());
   const MeshTrack finer = with_halved_pieces(*found.track, found.z, halved);
-  const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, found.rows->margins(), control, found);
+  const Outlook outlook =
+      look_ahead(problem, finer.mesh, finer.z, found.rows->margins(), control, found, RowsAhead::broken);
   Remainder remainder;
   remainder.objective = std::max(0.0, outlook.won);
   remainder.lost = std::max(0.0, -outlook.won);

@@ -96,11 +96,16 @@ class Minimiser {
     constexpr double kFast = 1e-3;    // taste: from as close as this the metric of the step before will do
     constexpr double kShrinks = 0.5;  // taste
     begin(start, &known);
+    take_in_broken(point_);
+    Vector before = by_limit(carried_over(known));
     for (int step = 0; solved(point_); ++step) {
       Vector z = point_.state.z;
       add_scaled(z.data(), 1.0, point_.solution.step.data(), n_);
       if (!track_->is_track(z)) break;
-      if (point_.distance <= kClose) return at_end_of_step(std::move(z));
+      Vector now = by_limit(point_.next);
+      const bool settled = settles(before, now);
+      before = std::move(now);
+      if (point_.distance <= kClose && settled) return at_end_of_step(std::move(z));
       if (step == kMostSteps || control_.stop()) break;
       ++control_.evaluations;
       Point next = linearised(rows_->state(z, true));
@@ -110,20 +115,23 @@ class Minimiser {
         set_metric(next, point_.next);
       }
       set_solution(next, point_.next);
+      take_in_broken(next);
       if (next.distance > kShrinks * point_.distance) break;
       point_ = std::move(next);
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] Outlook look(const Vector& start, const Found& known) {
+  [[nodiscard]] Outlook look(const Vector& start, const Found& known, RowsAhead rows) {
     Outlook outlook;
     // The multipliers of the coarser mesh tell which rows to begin with. For the curvature they are not good enough:
     // where they leave it indefinite, the step would be shortened, and less promised than there is.
     point_ = linearised(rows_->state(start, true));
     set_metric(point_, Multipliers{});
     set_solution(point_, carried_over(known));
+    if (rows == RowsAhead::broken) take_in_broken(point_);
     renew(point_);
+    if (rows == RowsAhead::broken) take_in_broken(point_);
     outlook.step = point_.solution.step;
     outlook.force.assign(n_, 0.0);
     if (!solved(point_)) return outlook;
@@ -134,14 +142,7 @@ class Minimiser {
     for (const std::size_t i : point_.solution.active) {
       add_scaled(outlook.force.data(), point_.solution.inequality[i], point_.program.inequality.row(i), n_);
     }
-    outlook.by_limit.assign(problem_.limits.size(), 0.0);
-    for (std::size_t i = 0; i < point_.next.active.size(); ++i) {
-      outlook.by_limit[point_.next.active[i].limit] += point_.next.inequality[i];
-    }
-    for (std::size_t i = 0; i < point_.next.equality.size(); ++i) {
-      const std::size_t* const limit = rows_->limit_of_equality(i);
-      if (limit != nullptr) outlook.by_limit[*limit] += std::fabs(point_.next.equality[i]);
-    }
+    outlook.by_limit = by_limit(point_.next);
     // With d^T H d = -force.d = |L^T d|^2.
     outlook.won = -dot(point_.program.gradient.data(), outlook.step.data(), n_) -
                   0.5 * point_.solution.length * point_.solution.length;
@@ -159,6 +160,30 @@ class Minimiser {
     Multipliers next;       ///< of the solution
     double distance = 0.0;  ///< length of the step over that of the gradient, in the metric
   };
+
+  /// What each limit carries.
+  [[nodiscard]] Vector by_limit(const Multipliers& multipliers) const {
+    Vector sums(problem_.limits.size(), 0.0);
+    for (std::size_t i = 0; i < multipliers.active.size(); ++i) {
+      sums[multipliers.active[i].limit] += multipliers.inequality[i];
+    }
+    for (std::size_t i = 0; i < multipliers.equality.size(); ++i) {
+      const std::size_t* const limit = rows_->limit_of_equality(i);
+      if (limit != nullptr) sums[*limit] += std::fabs(multipliers.equality[i]);
+    }
+    return sums;
+  }
+  /// Whether what limits carry has come to rest from one program to the next.
+  [[nodiscard]] static bool settles(const Vector& before, const Vector& now) {
+    constexpr double kSame = 5e-3;    // accuracy: a quarter of that of a price
+    constexpr double kCounts = 1e-4;  // taste: of the greatest one
+    double greatest = 0.0;
+    for (const double multiplier : now) greatest = std::max(greatest, multiplier);
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (std::fabs(now[i] - before[i]) > kSame * std::max(now[i], kCounts * greatest)) return false;
+    }
+    return true;
+  }
 
   /// The optimum as the point's program has it.
   [[nodiscard]] Found at_end_of_step(Vector z) const {
@@ -353,6 +378,25 @@ class Minimiser {
     const Multipliers known = std::move(point.next);
     set_metric(point, known);
     set_solution(point, known);
+  }
+
+  /// Rows too far from their bounds to have a part in the program and broken at the end of its step: once more with them.
+  void take_in_broken(Point& point) const {
+    constexpr int kMostTimes = 4;  // budget
+    for (int time = 0; time < kMostTimes && solved(point); ++time) {
+      Vector z = point.state.z;
+      add_scaled(z.data(), 1.0, point.solution.step.data(), n_);
+      if (!track_->is_track(z)) return;
+      const std::size_t known = point.set.size();
+      for (const Row& row : rows_->candidates(rows_->state(z, false), -control_.limit_tolerance)) {
+        const auto end = point.set.begin() + static_cast<std::ptrdiff_t>(known);
+        if (std::find(point.set.begin(), end, row) == end) point.set.push_back(row);
+      }
+      if (point.set.size() == known) return;
+      point.program.inequality_value = values_of(*rows_, point.state, point.set);
+      point.program.inequality = jacobian_of(*rows_, point.state, point.set, n_);
+      set_solution(point, point.next);
+    }
   }
 
   [[nodiscard]] static bool solved(const Point& point) {
@@ -623,8 +667,8 @@ std::optional<Found> approximated(const ScaledProblem& problem, const Mesh& mesh
 }
 
 Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z, const Vector& margins,
-                   SearchControl& control, const Found& known) {
-  return Minimiser(problem, mesh, margins, control).look(z, known);
+                   SearchControl& control, const Found& known, RowsAhead rows) {
+  return Minimiser(problem, mesh, margins, control).look(z, known, rows);
 }
 
 GuessCurve curve_of(const Transcription& track, const Vector& z) {

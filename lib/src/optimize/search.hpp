@@ -62,8 +62,14 @@ struct Outlook {
   Vector
       by_limit;  ///< multipliers of the program, those of each limit's rows together; none where it has no solution
 };
+/// Which rows the program has.
+enum class RowsAhead {
+  near,   ///< those close to their bounds: a far one may take back what is promised, a step round it may not
+  broken  ///< those, too, that its step would break
+};
 [[nodiscard]] Outlook look_ahead(const ScaledProblem& problem, const Mesh& mesh, const Vector& z,
-                                 const Vector& margins, SearchControl& control, const Found& known);
+                                 const Vector& margins, SearchControl& control, const Found& known,
+                                 RowsAhead rows);
 
 /// Slope angle over arc length of an iterate.
 [[nodiscard]] GuessCurve curve_of(const Transcription& track, const Vector& z);

@@ -355,6 +355,14 @@ Candidate Searcher::search_from(const Passages& passages, const Mesh& mesh, cons
   return control_.any_track ? mended(passages, mesh, z) : ended(carried_on(passages, mesh, z));
 }
 
+Searcher::Stage Searcher::carried_along(const Passages& passages, const Mesh& mesh, const Vector& z) {
+  Stage stage{begun(passages), {}, mesh, z};
+  const ScaledProblem& problem = *stage.candidate.rough;
+  aim_at(kCoarseTolerance, 12);
+  stage.found = laid_anew(problem, minimise(problem, mesh, z, margins_, control_));
+  return stage;
+}
+
 Searcher::Stage Searcher::carried_on(const Passages& passages, const Mesh& mesh, const Vector& z) {
   Stage stage{begun(passages), {}, mesh, z};
   const ScaledProblem& problem = *stage.candidate.rough;
@@ -680,7 +688,8 @@ Found Searcher::bent_at_finish(const ScaledProblem& problem, Found found) {
   if (problem.speed_weight == 0.0 || problem.lead_out > 0.0 || is_smooth(problem) || !is_optimum(found))
     return found;
   const MeshTrack finer = with_short_pieces_at_finish(*found.track, found.z);
-  const Outlook outlook = look_ahead(problem, finer.mesh, finer.z, margins_, control_, found);
+  const Outlook outlook =
+      look_ahead(problem, finer.mesh, finer.z, margins_, control_, found, RowsAhead::near);
   if (!(outlook.won > kPays * std::fabs(found.objective))) return found;
   aim_at(kAimed * options_.tolerance, 0);
   Found next = minimise(problem, finer.mesh, finer.z, margins_, control_, &found);
@@ -909,7 +918,8 @@ Candidate Searcher::with_sharper_crest(Candidate best) {
       aim_at(kAimed * options_.tolerance, 0);
       control_.is_close = is_close;
       Found next = minimise(problem, sharper.mesh, sharper.z, margins_, control_, &known);
-      const bool goes_on = !next.stopped && next.residual <= kNearly && next.objective < known.objective;
+      const bool goes_on = !next.stopped && next.residual <= kNearly && next.feasible(kNearlyFeasible) &&
+                           next.objective < known.objective;
       last.kept = false;
       last.found.reset();
       if (goes_on) mend(last, next, sharper.mesh.extra_breaks);

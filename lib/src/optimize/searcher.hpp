@@ -74,6 +74,8 @@ class Searcher {
     Vector z;
   };
   [[nodiscard]] Stage carried_on(const Passages& passages, const Mesh& mesh, const Vector& z);
+  /// On its own mesh alone, and there nearly: a track on the way to another problem's.
+  [[nodiscard]] Stage carried_along(const Passages& passages, const Mesh& mesh, const Vector& z);
   /// The same to its end. Where it comes to nothing, the track that it begins with, mended.
   [[nodiscard]] Candidate ended(Stage stage);
   /// Another optimum of a candidate's own problem and margins, to its end.

@@ -25,12 +25,11 @@ Problem with_nearer_changes(Problem problem, std::size_t last, double share) {
   return problem;
 }
 
-/// The search for a problem from the track that another one has led to, whose bends go along with the change.
+/// Where a track that another problem has led to begins in this one: its bends go along with the change.
 /// @param from,to  where the change was and is, over the length of the track
-Candidate followed(Searcher& searcher, const Problem& problem, const Passages& passages,
-                   const Candidate& before, double from, double to) {
-  const Transcription& track = *before.found->track;
-  const Vector& z = before.found->z;
+MeshTrack moved_along(const ScaledProblem& problem, const Found& before, double from, double to) {
+  const Transcription& track = *before.track;
+  const Vector& z = before.z;
   const auto moved = [&](double share) {
     return share <= from ? share * to / from : to + (share - from) * (1.0 - to) / (1.0 - from);
   };
@@ -38,48 +37,105 @@ Candidate followed(Searcher& searcher, const Problem& problem, const Passages& p
   for (double& share : curve.sigma) share = moved(share);
   Vector knots;
   for (const double knot : track.mesh().knots) knots.push_back(moved(track.share_of_core(z, knot)));
-  const Mesh mesh = mesh_of(scaled(problem, passages), std::move(knots), curve.length);
-  return searcher.search_from(passages, mesh, fit(curve, Transcription(mesh)));
+  Mesh mesh = mesh_of(problem, std::move(knots), curve.length);
+  Vector begun = fit(curve, Transcription(mesh));
+  return {std::move(mesh), std::move(begun)};
 }
 
-std::optional<Candidate> drawn_back(const Problem& problem, const Passages& passages, std::size_t change,
-                                    double length, const OptimizeOptions& options, SearchControl& control,
-                                    const Progress& progress) {
-  const double place = problem.body.friction_changes[change].from;
-  const double nearest = std::min(1.0, kNear * length / place);
-  double share_before = 1.0;
-  const auto found_at = [&](double left, const std::optional<Candidate>& before) -> std::optional<Candidate> {
-    const double share = math::pow(nearest, left);
-    const Problem nearer = with_nearer_changes(problem, change, share);
-    Searcher searcher(nearer, options, control, progress);
-    Candidate track;
-    if (before) {
-      const double now = before->track->length();
-      const double to = std::min(share * place / now, 0.5 * (1.0 + share_before * place / now));
-      track = followed(searcher, nearer, passages, *before, share_before * place / now, to);
-    } else {
-      track = searcher.search(passages);
+/// The track with a change nearer to the start, drawn back to where it is.
+class DrawnBack {
+ public:
+  DrawnBack(const Problem& problem, const Passages& passages, std::size_t change, double length,
+            const OptimizeOptions& options, SearchControl& control, const Progress& progress)
+      : problem_(problem),
+        passages_(passages),
+        change_(change),
+        place_(problem.body.friction_changes[change].from),
+        nearest_(std::min(1.0, kNear * length / place_)),
+        options_(options),
+        control_(control),
+        progress_(progress) {}
+
+  [[nodiscard]] std::optional<Candidate> run() {
+    if (!begin()) return std::nullopt;
+    // The part of the way back that is left, and of it the next step, halved where the search gets lost.
+    double left = 1.0;
+    double step = kFirstStep;
+    while (left > 0.0 && step > kLeastStep && !control_.stop()) {
+      const double next = left > step * (1.0 + 1e-9) ? left - step : 0.0;
+      if (next == 0.0 ? end() : go_on(next)) {
+        left = next;
+      } else {
+        step *= 0.5;
+      }
     }
-    if (!track.kept || track.stopped || track.track->length() <= share * place) return std::nullopt;
-    share_before = share;
-    return track;
-  };
-  // The part of the way back that is left, and of it the next step, halved where the search gets lost.
-  double left = 1.0;
-  double step = kFirstStep;
-  std::optional<Candidate> last = found_at(left, {});
-  while (last && left > 0.0 && step > kLeastStep && !control.stop()) {
-    const double next = left > step * (1.0 + 1e-9) ? left - step : 0.0;
-    std::optional<Candidate> track = found_at(next, last);
-    if (!track) {
-      step *= 0.5;
-      continue;
-    }
-    last = std::move(track);
-    left = next;
+    return left > 0.0 ? std::nullopt : std::move(ended_);
   }
-  return left > 0.0 ? std::nullopt : std::move(last);
-}
+
+ private:
+  [[nodiscard]] Problem nearer(double left) const {
+    return with_nearer_changes(problem_, change_, math::pow(nearest_, left));
+  }
+  /// Place of the change, over the length of the track.
+  [[nodiscard]] double share_at(double left) const { return math::pow(nearest_, left) * place_ / length_; }
+
+  [[nodiscard]] bool begin() {
+    const Problem nearest = nearer(1.0);
+    const Candidate track = Searcher(nearest, options_, control_, progress_).search(passages_);
+    if (!track.kept || track.stopped) return false;
+    return take(*track.found, track.problem, 1.0);
+  }
+
+  [[nodiscard]] MeshTrack next_of(const Problem& problem, double left) const {
+    const double before = share_at(left_);
+    const double to = std::min(share_at(left), 0.5 * (1.0 + before));
+    return moved_along(scaled(problem, passages_), *found_, before, to);
+  }
+
+  [[nodiscard]] bool go_on(double left) {
+    constexpr double kNearly = 1e-3;  // taste
+    const Problem problem = nearer(left);
+    const MeshTrack begun = next_of(problem, left);
+    Searcher searcher(problem, options_, control_, progress_);
+    Searcher::Stage stage = searcher.carried_along(passages_, begun.mesh, begun.z);
+    const bool arrives = !stage.found.stopped && stage.found.feasible(kNearly);
+    return arrives && take(std::move(stage.found), stage.candidate.rough, left);
+  }
+
+  [[nodiscard]] bool end() {
+    const MeshTrack begun = next_of(problem_, 0.0);
+    Searcher searcher(problem_, options_, control_, progress_);
+    Searcher::Stage stage = searcher.carried_on(passages_, begun.mesh, begun.z);
+    ended_ = searcher.ended(std::move(stage));
+    return ended_->kept && !ended_->stopped && ended_->track->length() > place_;
+  }
+
+  /// @return whether the track goes on behind the change
+  [[nodiscard]] bool take(Found found, std::shared_ptr<const ScaledProblem> scaled, double left) {
+    const double length = found.track->core_length(found.z) + scaled->lead_in + scaled->lead_out;
+    if (!(length * scaled->chord > math::pow(nearest_, left) * place_)) return false;
+    length_ = length * scaled->chord;
+    found_ = std::move(found);
+    scaled_ = std::move(scaled);
+    left_ = left;
+    return true;
+  }
+
+  const Problem& problem_;
+  const Passages& passages_;
+  std::size_t change_;
+  double place_;    ///< [m]
+  double nearest_;  ///< where it is drawn to, of that
+  const OptimizeOptions& options_;
+  SearchControl& control_;
+  const Progress& progress_;
+
+  std::optional<Found> found_;                   ///< the last one on the way
+  std::shared_ptr<const ScaledProblem> scaled_;  ///< what it is of
+  double length_ = 0.0;                          ///< of it [m]
+  double left_ = 1.0;                            ///< of the way, at it
+  std::optional<Candidate> ended_;
+};
 
 }  // namespace
 
@@ -94,7 +150,7 @@ std::vector<Candidate> on_smoother_ground(const Problem& problem, const Passages
     const bool smoother = change.friction.coefficient() < before;
     before = change.friction.coefficient();
     if (!smoother || change.from > kFar * length || control.stop()) continue;
-    auto track = drawn_back(problem, passages, i, length, options, control, progress);
+    auto track = DrawnBack(problem, passages, i, length, options, control, progress).run();
     if (track) tracks.push_back(*std::move(track));
   }
   return tracks;
