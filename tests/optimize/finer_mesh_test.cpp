@@ -177,4 +177,33 @@ TEST_CASE("what a finer mesh would win is told to be no less than many pieces wi
   }
 }
 
+TEST_CASE("nothing is told to be left where nothing is left to win") {
+  // Rows far from their bounds, broken by the step of a program without them, made it promise 1e-5 of the time.
+  Problem in_run;
+  in_run.endpoints = {85.0, 48.0};
+  in_run.body.friction = Friction::from_coefficient(0.05);
+  in_run.body.drag_per_metre = 0.0017;
+  in_run.limits.slope_angle = {0.0, Angle::from_degrees(37.0).radians()};
+  in_run.limits.exit_slope_angle = Range::fixed(Angle::from_degrees(11.0).radians());
+  in_run.limits.lead_out = 6.5;
+  in_run.limits.highest_curvature_rate = 0.002;
+  double before = HUGE_VAL;
+  for (const double load : {1.775, 1.8, 1.85, 1.9, 1.975}) {
+    in_run.limits.highest_normal_load = load * kStandardGravity;
+    const OptimizeReport report = optimize(in_run).report;
+    CAPTURE(load, report.brief());
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    CHECK(report.finer_mesh_wins.value() < 2e-7);
+    CHECK(report.travel_time < before * (1.0 + 1e-7));
+    before = report.travel_time;
+  }
+  // A sharper crest that broke its limits was told to win an eighth.
+  for (const int index : {257, 293}) {
+    const OptimizeReport report = optimize(problem_of({1, index})).report;
+    CAPTURE(index, report.brief());
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    CHECK(report.finer_mesh_wins.value() < 1e-5);
+  }
+}
+
 }  // namespace finer_mesh_test

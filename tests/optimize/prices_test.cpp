@@ -175,6 +175,24 @@ TEST_CASE("a straight start of any length has its price, which changes little fr
   CHECK(active_of(report, "lead_in").price == Approx(0.5 * (shorter - longer)).epsilon(0.03));
 }
 
+TEST_CASE("rows that only a finer mesh brings to their bounds have their part in prices") {
+  // Without them that of lead_out was a third too low.
+  testing::Random random(20250217);
+  constexpr int kIndex = 149;
+  Problem problem;
+  for (int i = 0; i <= kIndex; ++i) problem = testing_problems::random_limited(random);
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  constexpr double kStep = 1e-3;
+  for (const char* key : {"lead_in", "lead_out", "smallest_valley_radius"}) {
+    const ActiveLimit& active = active_of(report, key);
+    const double less = won_by(problem, report, active.limit, active.value, -kStep);
+    const double more = won_by(problem, report, active.limit, active.value, kStep);
+    CAPTURE(key, less, more);
+    CHECK(active.price == Approx(0.5 * std::fabs(less - more)).epsilon(kPriceAccuracy));
+  }
+}
+
 namespace {
 
 /// How many prices of random problems were held against re-solves.

@@ -225,7 +225,10 @@ class KnotMover {
       const Mesh mesh = Map(best_.track->mesh(), groups_).moved(times(step, unit_, part));
       control_.tolerance = kAimed * tolerance_;
       control_.most_rounds = 0;
+      // Where friction changes most jumps lie where they belong, and a step that gets lost is one too long.
+      const bool was_close = std::exchange(control_.is_close, !problem_.changes.empty());
       Found trial = minimise(problem_, mesh, best_.z, best_.rows->margins(), control_, &best_);
+      control_.is_close = was_close;
       const bool does = !trial.stopped && trial.residual <= tolerance_ &&
                         trial.feasible(control_.limit_tolerance) && trial.objective < best_.objective;
       if (!does) continue;

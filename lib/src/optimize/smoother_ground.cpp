@@ -51,7 +51,7 @@ class DrawnBack {
         passages_(passages),
         change_(change),
         place_(problem.body.friction_changes[change].from),
-        nearest_(std::min(1.0, kNear * length / place_)),
+        nearest_(kNear * length / place_),
         options_(options),
         control_(control),
         progress_(progress) {}
@@ -149,7 +149,9 @@ std::vector<Candidate> on_smoother_ground(const Problem& problem, const Passages
     const FrictionChange& change = problem.body.friction_changes[i];
     const bool smoother = change.friction.coefficient() < before;
     before = change.friction.coefficient();
-    if (!smoother || change.from > kFar * length || control.stop()) continue;
+    // Most of the track lies on ground as near as it would be drawn.
+    const bool is_near = change.from <= kNear * length;
+    if (!smoother || is_near || change.from > kFar * length || control.stop()) continue;
     auto track = DrawnBack(problem, passages, i, length, options, control, progress).run();
     if (track) tracks.push_back(*std::move(track));
   }
