@@ -341,40 +341,40 @@ struct Kink {
 };
 
 /// Where a mesh lets two rows just touch there is a kink on it alone, or one that narrows with its pieces.
-/// @param at  the optimum on the other mesh, where one of its own kinks does not last
+/// @param at  the optimum on a mesh of halved pieces, where that has not the same kinks
 std::vector<Kink> kinks_of(const ScaledProblem& problem, Priced& at, const OptimizeOptions& options,
                            SearchControl& control) {
   // A kink of the mesh is half as wide on one twice as fine, one of the problem as wide.
   constexpr double kAsWide = 0.75;  // theory: between the two
-  const auto told_all = [](const std::vector<OneSidedPrice>& prices, const auto& lasts) {
-    std::vector<Kink> kinks;
-    for (const OneSidedPrice& price : prices) kinks.push_back({price, lasts(price)});
-    return kinks;
-  };
   const std::vector<OneSidedPrice> prices = one_sided_prices(problem, at.found);
-  std::optional<Found> other = std::move(at.before);
-  if (!other && !prices.empty()) {
-    const MeshTrack finer = with_all_halved(*at.found.track, at.found.z);
-    other = on_finer_mesh(problem, at.found, finer, options, control);
+  if (prices.empty()) return {};
+  std::optional<Found> finer;
+  if (!at.before) {
+    finer = on_finer_mesh(problem, at.found, with_all_halved(*at.found.track, at.found.z), options, control);
   }
-  if (!other || prices.empty()) return told_all(prices, [](const OneSidedPrice&) { return true; });
-  const std::vector<OneSidedPrice> others = one_sided_prices(problem, *other);
-  const auto lasts_among = [](const std::vector<OneSidedPrice>& known) {
-    return [&known](const OneSidedPrice& price) {
-      return std::any_of(known.begin(), known.end(), [&](const OneSidedPrice& one) {
-        if (one.limit != price.limit) return false;
-        const auto [narrow, wide] =
-            std::minmax({one.tightening - one.relaxing, price.tightening - price.relaxing});
-        return std::isinf(price.tightening) || narrow >= kAsWide * wide;
-      });
-    };
-  };
-  if (std::all_of(prices.begin(), prices.end(), lasts_among(others)))
-    return told_all(prices, lasts_among(others));
-  at.found = std::move(*other);
-  at.multipliers = multipliers_of(problem, at.found);
-  at.error.assign(problem.limits.size(), 0.0);
-  return told_all(others, lasts_among(prices));
+  const Found& other = at.before ? *at.before : finer ? *finer : at.found;
+  const std::vector<OneSidedPrice> others = one_sided_prices(problem, other);
+  const auto width = [](const OneSidedPrice& price) { return price.tightening - price.relaxing; };
+  std::vector<Kink> kinks;
+  bool all_last = true;
+  for (const OneSidedPrice& price : prices) {
+    const auto there = std::find_if(others.begin(), others.end(),
+                                    [&](const OneSidedPrice& one) { return one.limit == price.limit; });
+    bool lasts = false;
+    if (there != others.end()) {
+      const OneSidedPrice& narrow = width(*there) < width(price) ? *there : price;
+      const double wide = std::max(width(*there), width(price));
+      lasts = std::isinf(width(price)) || width(narrow) >= kAsWide * wide;
+      kinks.push_back({lasts ? price : narrow, lasts});
+    }
+    all_last = all_last && lasts;
+  }
+  if (finer && !all_last) {
+    at.found = std::move(*finer);
+    at.multipliers = multipliers_of(problem, at.found);
+    at.error.assign(problem.limits.size(), 0.0);
+  }
+  return kinks;
 }
 
 /// Sets the price of one that binds: two, or what lies between them where they are not the problem's.

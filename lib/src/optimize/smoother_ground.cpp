@@ -27,9 +27,8 @@ Problem with_nearer_changes(Problem problem, std::size_t last, double share) {
 
 /// Where a track that another problem has led to begins in this one: its bends go along with the change.
 /// @param from,to  where the change was and is, over the length of the track
-MeshTrack moved_along(const ScaledProblem& problem, const Found& before, double from, double to) {
-  const Transcription& track = *before.track;
-  const Vector& z = before.z;
+MeshTrack moved_along(const ScaledProblem& problem, const Transcription& track, const Vector& z, double from,
+                      double to) {
   const auto moved = [&](double share) {
     return share <= from ? share * to / from : to + (share - from) * (1.0 - to) / (1.0 - from);
   };
@@ -83,13 +82,13 @@ class DrawnBack {
     const Problem nearest = nearer(1.0);
     const Candidate track = Searcher(nearest, options_, control_, progress_).search(passages_);
     if (!track.kept || track.stopped) return false;
-    return take(*track.found, track.problem, 1.0);
+    return take(*track.found, *track.problem, 1.0);
   }
 
   [[nodiscard]] MeshTrack next_of(const Problem& problem, double left) const {
     const double before = share_at(left_);
     const double to = std::min(share_at(left), 0.5 * (1.0 + before));
-    return moved_along(scaled(problem, passages_), *found_, before, to);
+    return moved_along(scaled(problem, passages_), *track_, z_, before, to);
   }
 
   [[nodiscard]] bool go_on(double left) {
@@ -99,7 +98,7 @@ class DrawnBack {
     Searcher searcher(problem, options_, control_, progress_);
     Searcher::Stage stage = searcher.carried_along(passages_, begun.mesh, begun.z);
     const bool arrives = !stage.found.stopped && stage.found.feasible(kNearly);
-    return arrives && take(std::move(stage.found), stage.candidate.rough, left);
+    return arrives && take(stage.found, *stage.candidate.rough, left);
   }
 
   [[nodiscard]] bool end() {
@@ -111,12 +110,13 @@ class DrawnBack {
   }
 
   /// @return whether the track goes on behind the change
-  [[nodiscard]] bool take(Found found, std::shared_ptr<const ScaledProblem> scaled, double left) {
-    const double length = found.track->core_length(found.z) + scaled->lead_in + scaled->lead_out;
-    if (!(length * scaled->chord > math::pow(nearest_, left) * place_)) return false;
-    length_ = length * scaled->chord;
-    found_ = std::move(found);
-    scaled_ = std::move(scaled);
+  [[nodiscard]] bool take(const Found& found, const ScaledProblem& scaled, double left) {
+    const double length =
+        scaled.chord * (scaled.lead_in + found.track->core_length(found.z) + scaled.lead_out);
+    if (!(length > math::pow(nearest_, left) * place_)) return false;
+    track_ = found.track;
+    z_ = found.z;
+    length_ = length;
     left_ = left;
     return true;
   }
@@ -130,10 +130,11 @@ class DrawnBack {
   SearchControl& control_;
   const Progress& progress_;
 
-  std::optional<Found> found_;                   ///< the last one on the way
-  std::shared_ptr<const ScaledProblem> scaled_;  ///< what it is of
-  double length_ = 0.0;                          ///< of it [m]
-  double left_ = 1.0;                            ///< of the way, at it
+  // The last one on the way.
+  std::shared_ptr<const Transcription> track_;
+  Vector z_;
+  double length_ = 0.0;  ///< [m]
+  double left_ = 1.0;    ///< of the way
   std::optional<Candidate> ended_;
 };
 
@@ -149,7 +150,7 @@ std::vector<Candidate> on_smoother_ground(const Problem& problem, const Passages
     const FrictionChange& change = problem.body.friction_changes[i];
     const bool smoother = change.friction.coefficient() < before;
     before = change.friction.coefficient();
-    // Most of the track lies on ground as near as it would be drawn.
+    // Most of the track lies on it already.
     const bool is_near = change.from <= kNear * length;
     if (!smoother || is_near || change.from > kFar * length || control.stop()) continue;
     auto track = DrawnBack(problem, passages, i, length, options, control, progress).run();
