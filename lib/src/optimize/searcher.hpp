@@ -46,6 +46,9 @@ class Searcher {
            const Progress& progress)
       : problem_(problem), options_(options), control_(control), progress_(progress) {}
 
+  /// A coarse track that breaks its limits by less is carried on to a finer mesh.
+  static constexpr double kNearlyFeasible = 1e-3;  // taste
+
   struct Rough {
     std::optional<Found> found;
     bool got_lost = false;  ///< the descent did, and was led back by way of any track that keeps the limits
@@ -64,7 +67,7 @@ class Searcher {
   /// @param to_beat  the best one by other ways: tracks that are plainly behind it are not searched to their end
   [[nodiscard]] Candidate search(Opening opening, const std::optional<Candidate>& to_beat = std::nullopt);
   [[nodiscard]] Candidate search(const Passages& passages) { return search(opened(passages)); }
-  /// From a track that keeps the limits: the two below, or the third where any track will do.
+  /// From a track that keeps the limits: carried_on() and ended(), or mended() where any track will do.
   [[nodiscard]] Candidate search_from(const Passages& passages, const Mesh& mesh, const Vector& z);
   /// A search from a track that keeps the limits, on its way: carried to the finer meshes, which tell how good it can be.
   struct Stage {
@@ -74,10 +77,10 @@ class Searcher {
     Vector z;
   };
   [[nodiscard]] Stage carried_on(const Passages& passages, const Mesh& mesh, const Vector& z);
-  /// On its own mesh alone, and there nearly: a track on the way to another problem's.
-  [[nodiscard]] Stage carried_along(const Passages& passages, const Mesh& mesh, const Vector& z);
   /// The same to its end. Where it comes to nothing, the track that it begins with, mended.
   [[nodiscard]] Candidate ended(Stage stage);
+  /// As carried_on(), on the mesh of the track alone and to a coarse tolerance: on the way to another problem's track.
+  [[nodiscard]] Stage carried_along(const Passages& passages, const Mesh& mesh, const Vector& z);
   /// Another optimum of a candidate's own problem and margins, to its end.
   [[nodiscard]] Candidate ended_on(const Candidate& known, Found found);
   /// Where the search's own starts led to no optimum: the best of what `best` is and of what curves of no kind lead to.
@@ -106,8 +109,6 @@ class Searcher {
   static constexpr std::size_t kMiddlePieces = 16;  // taste: meshes grow by some 4/3
   static constexpr std::size_t kFinerPieces = 24;   // taste
   static constexpr double kCoarseTolerance = 1e-3;  // taste
-  /// A coarse track that breaks its limits by less is carried on to a finer mesh.
-  static constexpr double kNearlyFeasible = 1e-3;  // taste
 
   [[nodiscard]] Candidate begun(const Passages& passages);
   /// On the very problems of another one, which tracks found for it refer to.

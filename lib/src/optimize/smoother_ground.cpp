@@ -92,12 +92,11 @@ class DrawnBack {
   }
 
   [[nodiscard]] bool go_on(double left) {
-    constexpr double kNearly = 1e-3;  // taste
     const Problem problem = nearer(left);
     const MeshTrack begun = next_of(problem, left);
     Searcher searcher(problem, options_, control_, progress_);
     Searcher::Stage stage = searcher.carried_along(passages_, begun.mesh, begun.z);
-    const bool arrives = !stage.found.stopped && stage.found.feasible(kNearly);
+    const bool arrives = !stage.found.stopped && stage.found.feasible(Searcher::kNearlyFeasible);
     return arrives && take(stage.found, *stage.candidate.rough, left);
   }
 
