@@ -83,6 +83,8 @@ Setup make_setup(const Rider& rider, PlacesFrom from = PlacesFrom::start) {
   limits.highest_normal_load = 20.0;
   limits.highest_curvature_load = 10.0;
   limits.speed.highest = 8.0;
+  limits.speed.lowest = 1.0;
+  limits.lowest_speed_from = 5.0;
   limits.exit_speed.lowest = 2.0;
   limits.arc_length.highest = 14.0;
   limits.half_planes.push_back({{0.0, 1.0}, {-0.5, 1.0}, 0.1});
@@ -102,6 +104,8 @@ Setup make_setup(const Rider& rider, PlacesFrom from = PlacesFrom::start) {
   setup.problem = scaled(given, {});
   setup.mesh.knots = {0.0, 0.1, 0.25, 0.5, 0.8, 1.0};
   setup.mesh.extra_breaks = {0.33};
+  // On a track that is shorter than the mesh was laid for.
+  setup.mesh.held_from = setup.problem.lowest_speed_from;
   setup.mesh.lead_in = setup.problem.lead_in;
   setup.mesh.lead_out = setup.problem.lead_out;
   setup.mesh.core_length = 0.95;

@@ -6,6 +6,7 @@
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -84,6 +85,51 @@ TEST_CASE("a rate of curvature next to none is kept: arcs of one radius are") {
     CAPTURE(rate, optimum.report.brief());
     REQUIRE(optimum.centerline);
     CHECK(optimum.report.travel_time == Approx(arc).epsilon(1e-5));
+  }
+}
+
+// A track grows and shrinks while it is searched: the place stays where it is.
+TEST_CASE("a lowest speed from a place on holds there, and the faster it is, the more it costs") {
+  struct Before {
+    double lowest = 0.0;
+    double exit_speed = HUGE_VAL;
+    double price = 0.0;
+  };
+  for (const bool range : {false, true}) {
+    Before before;
+    for (const double lowest : {2.9, 3.0, 3.1, 3.15, 3.2}) {
+      Problem problem = slide(8.0, 5.0, range ? 0.306 : 0.404);
+      if (range) {
+        problem.low_friction = Friction::from_coefficient(0.176);
+        problem.high_friction = Friction::from_coefficient(0.404);
+      }
+      problem.body.entry_speed = 2.0;
+      problem.objective.kind = ObjectiveKind::exit_speed;
+      problem.limits.smallest_valley_radius = 2.0;
+      problem.limits.smallest_crest_radius = 2.0;
+      problem.limits.exit_slope_angle.highest = 10.0 * kDegree;
+      problem.limits.speed.lowest = lowest;
+      problem.limits.lowest_speed_from = 1.0;
+      const OptimizeReport report = solved(problem).report;
+      CAPTURE(range, lowest, report.brief());
+      CHECK(report.status == OptimizeStatus::optimal);
+      const auto is_speed = [](const auto& of) { return of.limit.key() == "speed.lowest"; };
+      const auto check = std::find_if(report.checks.begin(), report.checks.end(), is_speed);
+      const auto active = std::find_if(report.active.begin(), report.active.end(), is_speed);
+      REQUIRE(check != report.checks.end());
+      REQUIRE(active != report.active.end());
+      // It binds at the place alone.
+      CHECK(check->reached == Approx(lowest).epsilon(1e-5));
+      if (before.price > 0.0) {
+        const double lost = before.exit_speed - report.exit_speed;
+        CHECK(lost > 0.0);
+        CHECK(active->price > before.price);
+        // By the trapezoidal rule, whose third derivative is next to nothing here.
+        const double step = lowest - before.lowest;
+        CHECK(lost == Approx(0.5 * step * (before.price + active->price)).epsilon(0.02));
+      }
+      before = {lowest, report.exit_speed, active->price};
+    }
   }
 }
 

@@ -206,7 +206,10 @@ Found freed(const ScaledProblem& problem, Found best, double tolerance, SearchCo
 }  // namespace
 
 bool can_free_spans(const ScaledProblem& problem) {
-  return problem.changes.empty() && problem.rides.front().law == nullptr && !is_smooth(problem);
+  const bool at_a_place = std::any_of(problem.limits.begin(), problem.limits.end(), holds_from_a_place) &&
+                          problem.lowest_speed_from > problem.lead_in;
+  return problem.changes.empty() && !at_a_place && problem.rides.front().law == nullptr &&
+         !is_smooth(problem);
 }
 
 std::optional<Found> with_free_spans(const ScaledProblem& problem, const Found& begun, double tolerance,

@@ -6,7 +6,7 @@
 
 namespace glissade::optimizer {
 
-/// Whether spans of a problem's track can have lengths of their own: no friction changes at a given arc length, and no law asks
+/// Whether spans of a problem's track can have lengths of their own: no friction changes and no limit begins at a given arc length, and no law asks
 /// how far a ride has come.
 [[nodiscard]] bool can_free_spans(const ScaledProblem& problem);
 

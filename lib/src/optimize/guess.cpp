@@ -131,9 +131,10 @@ Vector graded_knots(const GuessCurve& curve, std::size_t pieces, double entry_le
 namespace {
 
 /// Of knots that turn at a joint with a straight the slope angle hardly tells: there the curvature is none on one side, and
-/// on the other that of what follows.
+/// on the other that of what follows. But where the curve has a kink there, they have it too.
 void set_joints(const Mesh& mesh, const Layout& layout, Vector& z) {
   constexpr double kNarrow = 1e-5;  // taste: ten times a piece of a joint
+  constexpr double kKink = 0.05;    // taste: [rad], more than curvature turns there that has a bound
   const std::size_t pieces = mesh.knots.size() - 1;
   const auto is_narrow = [&](std::size_t piece) {
     return mesh.knots[piece + 1] - mesh.knots[piece] < kNarrow;
@@ -143,10 +144,17 @@ void set_joints(const Mesh& mesh, const Layout& layout, Vector& z) {
   std::size_t to = pieces;
   while (to > from && is_narrow(to - 1)) --to;
   if (from == to) return;
-  if (mesh.lead_in > 0.0) {
+  const auto turned = [&](std::size_t first, std::size_t last) {
+    double angle = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      angle += 0.5 * (z[layout.turn(i)] + z[layout.turn(i + 1)]) * (mesh.knots[i + 1] - mesh.knots[i]);
+    }
+    return std::fabs(angle);
+  };
+  if (mesh.lead_in > 0.0 && turned(0, from) < kKink) {
     for (std::size_t i = 0; i < from; ++i) z[layout.turn(i)] = i == 0 ? 0.0 : z[layout.turn(from)];
   }
-  if (mesh.lead_out > 0.0) {
+  if (mesh.lead_out > 0.0 && turned(to, pieces) < kKink) {
     for (std::size_t i = to + 1; i <= pieces; ++i) z[layout.turn(i)] = i == pieces ? 0.0 : z[layout.turn(to)];
   }
 }

@@ -38,15 +38,10 @@ class MovedCore {
 };
 
 /// The same knots on a core that begins later by so much.
-Mesh begun_later(const ScaledProblem& problem, Mesh mesh, double by) {
+Mesh begun_later(Mesh mesh, double by) {
   const MovedCore moved(mesh, by);
-  const double watched_from = (problem.lowest_speed_from - mesh.lead_in) / mesh.core_length;
   mesh.lead_in += by;
-  for (double& sigma : mesh.extra_breaks) {
-    constexpr double kSame = 1e-9;  // rounding
-    sigma = std::fabs(sigma - watched_from) < kSame ? sigma - by / mesh.core_length : moved(sigma);
-  }
-  for (Vector* const places : {&mesh.knots, &mesh.fine}) {
+  for (Vector* const places : {&mesh.knots, &mesh.fine, &mesh.extra_breaks}) {
     for (double& sigma : *places) sigma = moved(sigma);
   }
   for (ChangeKnots& change : mesh.change_knots) {
@@ -64,7 +59,7 @@ std::optional<double> lagrangian(const ScaledProblem& problem, const Found& foun
   ScaledProblem changed = problem;
   changed.lead_in += later;
   changed.lead_out += longer_end;
-  Mesh mesh = later == 0.0 ? found.track->mesh() : begun_later(problem, found.track->mesh(), later);
+  Mesh mesh = later == 0.0 ? found.track->mesh() : begun_later(found.track->mesh(), later);
   mesh.lead_out += longer_end;
   const Transcription track(mesh);
   if (track.stations().size() != found.track->stations().size()) return std::nullopt;

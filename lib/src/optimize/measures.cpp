@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -279,28 +280,82 @@ class Load final : public Measure {
   bool with_weight_;
 };
 
+/// A place between two stations, or next to them, of a track whose length is an unknown.
+struct Between {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  double share = 0.0;  ///< of the way from one to the other
+  double first = 0.0;  ///< its derivatives by the length of the core
+  double second = 0.0;
+};
+
+/// Where a limit that holds from a place on begins to: at a row's station, but for what the track is longer or shorter than the
+/// mesh was laid for. None at other rows.
+std::optional<Between> at_beginning(const RowAt& at) {
+  if (!holds_from_a_place(at.limit) || at.track.held_from() != at.row.place) return std::nullopt;
+  const std::vector<Station>& stations = at.track.stations();
+  Between place;
+  place.from = at.row.place;
+  place.to = place.from + 1 < stations.size() ? place.from + 1 : place.from - 1;
+  const Station& from = stations[place.from];
+  const Station& to = stations[place.to];
+  const double length = core_length(at);
+  const double by_length = from.before + from.by_length;
+  const double way = to.arc_length(length) - from.arc_length(length);
+  const double way_by_length = to.before + to.by_length - by_length;
+  place.share = (at.problem.lowest_speed_from - from.arc_length(length)) / way;
+  place.first = -(by_length + place.share * way_by_length) / way;
+  place.second = -2.0 * place.first * way_by_length / way;
+  return place;
+}
+
 /// Squared.
 class Speed : public Measure {
  public:
   [[nodiscard]] double value(const RowAt& at) const override {
-    return at.state.flows[at.row.ride].v[at.row.place];
+    const Vector& v = at.state.flows[at.row.ride].v;
+    const std::optional<Between> begin = at_beginning(at);
+    return begin ? v[begin->from] + begin->share * (v[begin->to] - v[begin->from]) : v[at.row.place];
   }
   void gradient(const RowAt& at, double* out) const override {
-    at.track.add(at.state.flows[at.row.ride].dv, at.row.place, 1.0, out);
+    const Flow& flow = at.state.flows[at.row.ride];
+    const std::optional<Between> begin = at_beginning(at);
+    if (!begin) return at.track.add(flow.dv, at.row.place, 1.0, out);
+    at.track.add(flow.dv, begin->from, 1.0 - begin->share, out);
+    at.track.add(flow.dv, begin->to, begin->share, out);
+    out[at.track.layout().length()] += begin->first * (flow.v[begin->to] - flow.v[begin->from]);
   }
   void add_weights(const RowAt& at, double factor, StationWeights& weights) const override {
-    weights.v[at.row.ride][at.row.place] += factor;
+    Vector& v = weights.v[at.row.ride];
+    const std::optional<Between> begin = at_beginning(at);
+    v[at.row.place] += begin ? factor * (1.0 - begin->share) : factor;
+    if (begin) v[begin->to] += factor * begin->share;
+  }
+  void add_terms(const RowAt& at, double factor, Matrix& hessian) const override {
+    const std::optional<Between> begin = at_beginning(at);
+    if (!begin) return;
+    const Flow& flow = at.state.flows[at.row.ride];
+    Vector difference(at.track.layout().size(), 0.0);
+    at.track.add(flow.dv, begin->to, 1.0, difference.data());
+    at.track.add(flow.dv, begin->from, -1.0, difference.data());
+    Vector length(difference.size(), 0.0);
+    length[at.track.layout().length()] = 1.0;
+    add_symmetric(hessian, factor * begin->first, difference, length);
+    hessian(at.track.layout().length(), at.track.layout().length()) +=
+        factor * begin->second * (flow.v[begin->to] - flow.v[begin->from]);
+  }
+  [[nodiscard]] double place(const RowAt& at) const override {
+    return at_beginning(at) ? at.problem.lowest_speed_from : Measure::place(at);
   }
 
   void add_rows(const RowAt& at, std::vector<Row>& rows) const override {
     Row row = at.row;
     row.ride = fastest_or_slowest(at);
-    const bool from_a_place = at.limit.side < 0 && at.limit.name.id == LimitId::speed;
-    const double from = at.problem.lowest_speed_from * (1.0 - 1e-9);
+    const double from = holds_from_a_place(at.limit) ? at.problem.lowest_speed_from : 0.0;
     for (row.place = 0; row.place <= last_station(at); ++row.place) {
       const Station& station = at.track.stations()[row.place];
-      const double s = at.track.arc_length(at.state.z, station);
-      if (!station.watched || (from_a_place && s < from)) continue;
+      if (!station.watched) continue;
+      if (at.track.held_from() != row.place && at.track.arc_length(at.state.z, station) < from) continue;
       rows.push_back(row);
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace glissade::optimizer {
 namespace {
@@ -42,9 +43,12 @@ double greatest_size(const Vector& values) {
   return greatest;
 }
 
-ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const Matrix& carrying) {
-  constexpr double kPenalties[] = {10.0, 100.0, 1e3};  // taste
-  constexpr double kLittle = 1e-5;                     // taste
+ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const Matrix& carrying,
+                          bool bends_much) {
+  constexpr double kPenalties[] = {10.0, 100.0, 1e3, 1e5};  // taste
+  constexpr double kLittle = 1e-5;                          // taste
+  // Where every limit had the last one, searches would lead elsewhere, and win nothing.
+  const std::size_t penalties = std::size(kPenalties) - (bends_much ? 0 : 1);
   const std::size_t n = hessian.columns();
   Vector diagonal(n);
   double largest = 0.0;
@@ -54,11 +58,11 @@ ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const M
   ShiftedCholesky best;
   for (const bool with_carrying : {false, true}) {
     if (with_carrying && !carries) break;
-    for (const double penalty : kPenalties) {
+    for (std::size_t i = 0; i < penalties; ++i) {
       Matrix convex = hessian;
-      add_squares(convex, penalty, equality);
-      if (with_carrying) add_squares(convex, penalty, carrying);
-      const bool last = with_carrying == carries && penalty == kPenalties[2];
+      add_squares(convex, kPenalties[i], equality);
+      if (with_carrying) add_squares(convex, kPenalties[i], carrying);
+      const bool last = with_carrying == carries && i + 1 == penalties;
       best = ShiftedCholesky(convex, diagonal, last ? ShiftedCholesky::kLargestShift : kLittle);
       if (best.shift() <= kLittle) return best;
     }

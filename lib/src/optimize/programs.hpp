@@ -25,8 +25,10 @@ struct Multipliers {
 /// A metric in which the Lagrangian's Hessian is the identity; convex by adding squares, of the equality rows
 /// and where that is not enough of the rows that carry multipliers too, which changes no step that keeps
 /// them; and by a shift if that will not do either.
-[[nodiscard]] ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality,
-                                        const Matrix& carrying);
+/// @param bends_much  a row that carries bends the Lagrangian by far more than its objective does: so much larger squares of
+///                    it are tried before any shift
+[[nodiscard]] ShiftedCholesky metric_of(const Matrix& hessian, const Matrix& equality, const Matrix& carrying,
+                                        bool bends_much = false);
 
 /// Distances in the slope angle itself, and in the length: how much a shape changes.
 [[nodiscard]] Matrix shape_metric(const Transcription& track);

@@ -626,11 +626,17 @@ bool is_smooth(const ScaledProblem& problem) {
                      [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
 }
 
+bool holds_from_a_place(const LimitSpec& limit) {
+  return limit.side < 0 && limit.name.id == LimitId::speed;
+}
+
 Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length) {
   Mesh mesh;
   mesh.changes = problem.changes;
   mesh.change_knots = change_knots(problem, core_length);
   mesh.knots = with_change_knots(knots, mesh.change_knots);
+  const bool begins_later = std::any_of(problem.limits.begin(), problem.limits.end(), holds_from_a_place);
+  if (begins_later) mesh.held_from = problem.lowest_speed_from;
   mesh.lead_in = problem.lead_in;
   mesh.lead_out = problem.lead_out;
   mesh.core_length = core_length;

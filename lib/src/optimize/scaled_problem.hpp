@@ -103,6 +103,9 @@ using Passages = std::vector<Passage>;
 /// @param core_length  about the length of the core [chords]
 [[nodiscard]] Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length);
 
+/// Whether a limit holds from ScaledProblem::lowest_speed_from on.
+[[nodiscard]] bool holds_from_a_place(const LimitSpec& limit);
+
 /// Whether the rate of curvature is limited: then nothing jumps.
 [[nodiscard]] bool is_smooth(const ScaledProblem& problem);
 

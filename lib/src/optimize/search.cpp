@@ -352,8 +352,12 @@ class Minimiser {
     for (std::size_t i = 0; i < known.active.size(); ++i) {
       if (known.inequality[i] > 0.0) carrying.push_back(known.active[i]);
     }
+    // Where next to no energy is left, a little of it decides over speeds.
+    const bool creeps = std::any_of(carrying.begin(), carrying.end(), [&](const Row& row) {
+      return problem_.limits[row.limit].measure == Measure::arrival;
+    });
     point.metric = metric_of(rows_->hessian(point.state, equality, known.active, known.inequality, 1.0),
-                             point.program.equality, jacobian_of(*rows_, point.state, carrying, n_));
+                             point.program.equality, jacobian_of(*rows_, point.state, carrying, n_), creeps);
   }
 
   void set_solution(Point& point, const Multipliers& known) const {

@@ -222,10 +222,7 @@ class HeldPlaces {
     }
     places_.push_back(sigma);
   }
-  [[nodiscard]] Vector behind(Vector others) const {
-    others.insert(others.end(), places_.begin(), places_.end());
-    return others;
-  }
+  [[nodiscard]] const Vector& places() const { return places_; }
 
  private:
   Vector places_;
@@ -460,12 +457,6 @@ bool Searcher::is_unlimited() const {
          is_sliding_point(problem_.body);
 }
 
-Vector Searcher::breaks_of(const ScaledProblem& problem, double core_length) {
-  if (!(problem.lowest_speed_from > problem.lead_in)) return {};
-  const double sigma = (problem.lowest_speed_from - problem.lead_in) / core_length;
-  return sigma < 1.0 ? Vector{sigma} : Vector{};
-}
-
 Mesh Searcher::mesh_again(const Found& found) {
   Mesh mesh = found.track->mesh();
   if (!found.track->has_fixed_pieces()) mesh.core_length = core_length_of(found);
@@ -474,9 +465,7 @@ Mesh Searcher::mesh_again(const Found& found) {
 
 Mesh Searcher::mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const {
   if (starts_with_crest(problem)) knots = with_crest_knots(knots);
-  Mesh mesh = mesh_of(problem, std::move(knots), core_length);
-  mesh.extra_breaks = breaks_of(problem, core_length);
-  return mesh;
+  return mesh_of(problem, std::move(knots), core_length);
 }
 
 std::optional<Found> Searcher::from_exact(const ScaledProblem& problem, const GuessCurve& start) {
@@ -866,7 +855,7 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
       if (lift.depth > kShallow) held.add(lift.sigma, mesh.knots);
     }
     if (judgement.arrived) ++rides_to_end;
-    mesh.extra_breaks = held.behind(breaks_of(problem, core_length_of(found)));
+    mesh.extra_breaks = held.places();
     aim_at(kAimed * options_.tolerance, found.stopped ? kGraceEffort : 3);
     const bool stopped = found.stopped;
     Found next = laid_anew(problem, on_mesh(problem, mesh, found.z, found));

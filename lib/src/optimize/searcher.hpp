@@ -118,8 +118,6 @@ class Searcher {
   /// Only what every track obeys: the mesh can then be laid by the exact solution.
   [[nodiscard]] bool is_unlimited() const;
   [[nodiscard]] static double core_length_of(const Found& found) { return found.track->core_length(found.z); }
-  /// Where a limit begins to hold.
-  [[nodiscard]] static Vector breaks_of(const ScaledProblem& problem, double core_length);
   /// The mesh of a track found, for the same unknowns: laid by its length, unless changes of friction hold it in place.
   [[nodiscard]] static Mesh mesh_again(const Found& found);
   [[nodiscard]] Mesh mesh_with(const ScaledProblem& problem, Vector knots, double core_length) const;

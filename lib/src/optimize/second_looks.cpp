@@ -222,7 +222,6 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
     tried.push_back(begun_with.mesh.knots);
     Mesh mesh = mesh_of(problem, begun_with.mesh.knots, begun_with.mesh.core_length);
     if (mesh.knots.size() != begun_with.mesh.knots.size()) return false;  // friction changes elsewhere, too
-    mesh.extra_breaks = breaks_of(problem, mesh.core_length);
     mesh.fine = begun_with.mesh.fine;
     mesh.fine_turns = begun_with.mesh.fine_turns;
     aim_at(kAimed * options_.tolerance, 3);
@@ -261,7 +260,7 @@ Candidate Searcher::on_other_meshes(Candidate best, bool for_better) {
   if (!is_known() && best.found->track->mesh().knots.size() <= kMostKnots) {
     const Found& from = begun_with(best);
     Mesh mesh = mesh_again(from);
-    mesh.extra_breaks = breaks_of(*best.rough, core_length_of(from));
+    mesh.extra_breaks.clear();
     (void)ends_better(mesh, Vector(from.z), best);
   }
   for (const std::size_t pieces : kPieces) {

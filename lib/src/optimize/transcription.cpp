@@ -42,7 +42,21 @@ Transcription::Transcription(const Mesh& mesh) : mesh_(mesh) {
     if (stations_[i].watched) watched_.push_back(i);
     local_dzeta_[i] = local_dzeta(stations_[i]);
   }
+  held_from_ = station_held_from();
   if (!fine_.empty()) add_fine_to_stations();
+}
+
+std::optional<std::size_t> Transcription::station_held_from() const {
+  const double length = mesh_.core_length;
+  const double from = mesh_.held_from;
+  const bool is_on_track = from > 0.0 && from < stations_.back().arc_length(length);
+  if (!is_on_track || !mesh_.borders.empty()) return std::nullopt;
+  std::size_t nearest = watched_.front();
+  for (const std::size_t station : watched_) {
+    const double away = std::fabs(stations_[station].arc_length(length) - from);
+    if (away < std::fabs(stations_[nearest].arc_length(length) - from)) nearest = station;
+  }
+  return nearest;
 }
 
 void Transcription::add_spans() {
@@ -299,6 +313,12 @@ void Transcription::add_core() {
   Vector breaks = mesh_.extra_breaks;
   breaks.insert(breaks.end(), mesh_.knots.begin(), mesh_.knots.end());
   breaks.insert(breaks.end(), mesh_.fine.begin(), mesh_.fine.end());
+  // Next to another one it is that.
+  constexpr double kNext = 1e-7;  // taste
+  const double held = (mesh_.held_from - mesh_.lead_in) / mesh_.core_length;
+  const bool is_new = std::none_of(breaks.begin(), breaks.end(),
+                                   [&](double sigma) { return std::fabs(sigma - held) < kNext; });
+  if (is_new && held > 0.0 && held < 1.0) breaks.push_back(held);
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
   stations_.reserve(stations_.size() + (kNodes + 1) * (breaks.size() + 1));
@@ -340,9 +360,11 @@ void Transcription::add_straight(Part part) {
     stretch.by_length[1] = by_length;
     add_panels(stretch);
   };
-  for (const double change : mesh_.changes) {
-    const double along = change - begin;
-    if (along > 0.0 && along < whole) go_on_to(along, change, 0.0);
+  Vector places = mesh_.changes;
+  places.insert(std::upper_bound(places.begin(), places.end(), mesh_.held_from), mesh_.held_from);
+  for (const double place : places) {
+    const double along = place - begin;
+    if (along > stretch.to && along < whole) go_on_to(along, place, 0.0);
   }
   go_on_to(whole, end_fixed + whole, end_by_length);
 }

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -61,8 +62,10 @@ struct Mesh {
   /// Arc lengths at which the track rubs differently from there on, ascending [chords], ...
   Vector changes;
   std::vector<ChangeKnots> change_knots;  ///< ... and those of them that lie in the core
-  double lead_in = 0.0;                   ///< straight before the core [chords]
-  double lead_out = 0.0;                  ///< straight after it
+  double held_from =
+      0.0;  ///< arc length from which on a limit holds, itself held exactly; 0: from the start [chords]
+  double lead_in = 0.0;      ///< straight before the core [chords]
+  double lead_out = 0.0;     ///< straight after it
   double core_length = 1.0;  ///< of the guess: places the nodes of the substitution, and the changes
   double entry_speed2 = 0.0;
   double centre_height = 0.0;  ///< of the body: no track turns upwards more tightly
@@ -208,6 +211,9 @@ class Transcription {
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
   /// Those at which limits are held, in order.
   [[nodiscard]] const std::vector<std::size_t>& watched() const { return watched_; }
+  /// Station at Mesh::held_from, on a track as long as the mesh was laid for; none where that is the start, or behind the
+  /// finish, or where spans have lengths of their own.
+  [[nodiscard]] const std::optional<std::size_t>& held_from() const { return held_from_; }
   /// out += factor dzeta/d(unknown) of a station; constant
   void add_dzeta(std::size_t station, double factor, double* out) const;
   /// out += factor d(.)/d(unknown) of a station
@@ -383,6 +389,8 @@ class Transcription {
   [[nodiscard]] Panel panel_of(const Stretch& stretch) const;
   void add_station(double at, const Stretch& stretch, std::size_t zone);
   /// Changes of friction before a place of the mesh.
+  /// Of stations laid already.
+  [[nodiscard]] std::optional<std::size_t> station_held_from() const;
   [[nodiscard]] std::size_t zone_at(double arc_length) const;
   /// Adds what a sliding point's exponent 2 mu zeta - 2 k s of one friction does at a station.
   /// @param by_v  dL/dv there
@@ -409,6 +417,7 @@ class Transcription {
   std::vector<Panel> panels_;
   std::vector<Station> stations_;
   std::vector<std::size_t> watched_;
+  std::optional<std::size_t> held_from_;
   std::vector<Section> sections_;
   std::vector<std::size_t> section_of_piece_;
   Matrix dzeta_starts_;                ///< dzeta where the sections begin
