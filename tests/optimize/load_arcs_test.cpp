@@ -9,8 +9,11 @@
 #include "support/random.hpp"
 #include "support/thorough.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -235,6 +238,111 @@ TEST_CASE(
     if (entry.is_best) CHECK(report.travel_time >= *by_hand * (1.0 - kExcess));
   }
   CHECK(2 * compared > static_cast<int>(cases.size()));
+}
+
+namespace {
+
+/// A body that leaves the start at a given slope, falls from there and comes down on an extremal (docs/theory.md, a fastest
+/// track with an entry speed): where it has fallen to slope angle `joint`, and the track ends at `exit`.
+struct FallOnto {
+  double joint = 0.0;
+  double exit = 0.0;
+};
+
+struct Ending {
+  double x = 0.0;
+  double y = 0.0;
+  double time = 0.0;
+};
+
+Ending ending(const Problem& problem, double entry, const FallOnto& track) {
+  const double beta = std::atan(problem.body.friction.coefficient());
+  const double g = problem.gravity;
+  const double level = problem.body.entry_speed * std::cos(entry);
+  const double fall = (std::tan(track.joint) - std::tan(entry)) * level / g;
+  Ending end{level * fall, problem.body.entry_speed * std::sin(entry) * fall + 0.5 * g * fall * fall, fall};
+  const auto d = [&](double zeta) {
+    return std::cos(track.exit - beta) - std::sin(beta) * std::sin(2.0 * zeta - track.exit);
+  };
+  const double speed = level / std::cos(track.joint);
+  const double scale = speed * d(track.joint) / std::cos(track.joint);
+  // Simpson's rule, to 1e-13 of the time.
+  constexpr int kSteps = 4000;
+  const double step = (track.exit - track.joint) / kSteps;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double zeta = track.joint + step * i;
+    const double weight = step / 3.0 * (i == 0 || i == kSteps ? 1.0 : (i % 2 == 1 ? 4.0 : 2.0));
+    const double v = scale * std::cos(zeta) / d(zeta);
+    const double dt = -scale / g *
+                      (std::cos(track.exit + beta) + std::sin(beta) * std::sin(2.0 * zeta - track.exit)) /
+                      (d(zeta) * d(zeta));
+    end.time += weight * dt;
+    end.x += weight * dt * v * std::cos(zeta);
+    end.y += weight * dt * v * std::sin(zeta);
+  }
+  return end;
+}
+
+/// The least time from there to the finish, by Newton's method on both angles.
+double least_time(const Problem& problem, double entry, FallOnto& track) {
+  const auto missed = [&](const FallOnto& at) {
+    const Ending end = ending(problem, entry, at);
+    return std::array{end.x - problem.endpoints.run, end.y - problem.endpoints.drop};
+  };
+  for (int step = 0; step < 30; ++step) {
+    constexpr double kAside = 1e-6;
+    const auto here = missed(track);
+    const auto by_joint = missed({track.joint + kAside, track.exit});
+    const auto by_exit = missed({track.joint, track.exit + kAside});
+    const double a = (by_joint[0] - here[0]) / kAside, b = (by_exit[0] - here[0]) / kAside;
+    const double c = (by_joint[1] - here[1]) / kAside, d = (by_exit[1] - here[1]) / kAside;
+    const double det = a * d - b * c;
+    track.joint -= (d * here[0] - b * here[1]) / det;
+    track.exit -= (a * here[1] - c * here[0]) / det;
+  }
+  const auto left = missed(track);
+  REQUIRE(std::hypot(left[0], left[1]) < 1e-9 * problem.endpoints.run);
+  return ending(problem, entry, track).time;
+}
+
+}  // namespace
+
+// What is flown over is short beside the track, and its bend is that of the body's own speed.
+TEST_CASE(
+    "a push start at a given slope falls as far as it is best to, and the slope's price is that of a closed "
+    "form") {
+  struct Start {
+    double run, drop, friction, speed, degrees;
+    FallOnto near;
+  };
+  for (const Start& start : {Start{100.0, 15.0, 0.05, 1.0, 0.0, {1.3475, -0.9802}},
+                             Start{100.0, 15.0, 0.05, 1.0, 20.0, {1.3543, -0.9806}},
+                             Start{402.0, 82.0, 0.04, 2.0, 0.0, {1.3617, -0.7902}},
+                             Start{402.0, 82.0, 0.04, 2.0, 20.0, {1.3682, -0.7906}},
+                             Start{10.0, 5.0, 0.2, 2.0, 20.0, {1.0675, -0.2588}}}) {
+    Problem problem;
+    problem.endpoints = {start.run, start.drop};
+    problem.body.friction = Friction::from_coefficient(start.friction);
+    problem.body.entry_speed = start.speed;
+    const double entry = start.degrees * std::numbers::pi / 180.0;
+    problem.limits.entry_slope_angle = Range::fixed(entry);
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(start.run, start.degrees, report.brief());
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    FallOnto track = start.near;
+    const double exact = least_time(problem, entry, track);
+    CHECK(report.travel_time / exact - 1.0 < 2e-6);
+    CHECK(report.travel_time / exact - 1.0 > -1e-9);
+    constexpr double kStep = 1e-3;
+    const double flatter = least_time(problem, entry - kStep, track);
+    const double steeper = least_time(problem, entry + kStep, track);
+    const auto is_entry = [](const ActiveLimit& active) {
+      return active.limit.id == LimitId::entry_slope_angle;
+    };
+    const auto active = std::find_if(report.active.begin(), report.active.end(), is_entry);
+    REQUIRE(active != report.active.end());
+    CHECK(active->price == Approx((flatter - steeper) / (2.0 * kStep)).epsilon(0.02));
+  }
 }
 
 }  // namespace load_arcs_test

@@ -12,6 +12,9 @@ namespace {
 // curvature leaves too early, is held only in part. So does one that stays this close to the bound, in scales.
 constexpr double kHeld = 0.05;       // taste
 constexpr double kNearBound = 0.02;  // taste
+// What is flown over next to the start has all that its limit costs, and counts there if it is shorter than one over this of
+// the core. Measured: elsewhere, and of longer ones, the same tracks come out, which then take up to twice as long.
+constexpr double kShort = 4.0;
 // What fine knots may leave to win in a piece, as a share of the objective: with some ten pieces held, a third of
 // the accuracy that is stated for the whole.
 constexpr double kLeft = 3e-8;
@@ -87,15 +90,26 @@ std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& fo
     }
     if (whole <= 0.0) continue;
     const Vector slack = slack_by_piece(problem, found, state, i);
-    for (std::size_t piece = 0; piece < pieces; ++piece) {
+    const auto holds = [&](std::size_t piece) {
       const double width = knots[piece + 1] - knots[piece];
-      const double cost = std::max(price[piece], whole * width);
       const bool binds = std::any_of(bindings[i].begin(), bindings[i].end(), [&](const Span& span) {
         const double from = std::max(knots[piece], track.sigma_at(found.z, span.from));
         const double to = std::min(knots[piece + 1], track.sigma_at(found.z, span.to));
         return to - from >= kHeld * width;
       });
-      if (!binds && !has_fine[piece] && slack[piece] > kNearBound) continue;
+      return binds || has_fine[piece] || slack[piece] <= kNearBound;
+    };
+    std::vector<bool> held(pieces);
+    double stretch = 0.0;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      held[piece] = holds(piece);
+      if (held[piece]) stretch += knots[piece + 1] - knots[piece];
+    }
+    const double part_of_core = problem.entry_speed2 > 0.0 ? std::min(1.0, kShort * stretch) : 1.0;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      if (!held[piece]) continue;
+      const double width = knots[piece + 1] - knots[piece];
+      const double cost = std::max(price[piece], whole * width / part_of_core);
       if (!best[piece] || cost > best[piece]->price) best[piece] = HeldPiece{piece, i, cost};
     }
   }

@@ -64,10 +64,17 @@ MeshTrack with_halved_pieces(const Transcription& track, const Vector& z, const 
 
 namespace {
 
-/// Which pieces do not stand for a jump.
+/// Which pieces do not stand for a jump. Next to the start they are short for another reason, too: what a body flies over
+/// there bends as its own speed has it, however long the track.
 std::vector<bool> worth_a_knot(const Mesh& mesh) {
+  constexpr double kGrown = 0.15;   // taste: of the way from the start, more than a jump there is wide
+  constexpr double kNarrow = 1e-5;  // taste: ten times a piece of a joint
   std::vector<bool> halved(mesh.knots.size() - 1);
-  for (std::size_t i = 0; i < halved.size(); ++i) halved[i] = mesh.knots[i + 1] - mesh.knots[i] > kShortest;
+  for (std::size_t i = 0; i < halved.size(); ++i) {
+    const double width = mesh.knots[i + 1] - mesh.knots[i];
+    const bool grows = mesh.entry_speed2 > 0.0 && width > std::max(kNarrow, kGrown * mesh.knots[i + 1]);
+    halved[i] = width > kShortest || grows;
+  }
   return halved;
 }
 
