@@ -470,4 +470,22 @@ TEST_CASE("a finish without room for the section is said at once, with what woul
                                 Contains("a solid and headroom that reach at most"));
 }
 
+TEST_CASE(
+    "an end on the side of a keep-out that is not to be passed is said, whatever clearances are measured "
+    "from") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 7 m, z: 0 m}}\nbody: {friction_coefficient: "
+      "0.2}\n"
+      "limits: {keep_outs: [{outline: [[6.5 m, -3 m], [7.5 m, -3 m], [7.5 m, -2 m], [6.5 m, -2 m]], pass: "
+      "below}]}\n"
+      "cross_section: {kind: slab, width: 1 m, thickness: 50 mm}\n");
+  for (const char* from : {"solid", "centerline"}) {
+    CAPTURE(from);
+    const Outcome outcome = solve(file, {"--set", std::string("limits.clearances_from=") + from});
+    CHECK(outcome.exit_code == 3);
+    CHECK_THAT(outcome.errors, Contains("the finish lies above keep_outs[0], which is to be passed below"));
+  }
+  CHECK(solve(file, {"--set", "limits.keep_outs.0.pass=either"}).exit_code == 0);
+}
+
 }  // namespace limits_test

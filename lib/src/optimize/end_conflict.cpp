@@ -144,13 +144,9 @@ Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector
   return conflict;
 }
 
-}  // namespace
-
-std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldDo& would_do) {
+/// The ends whose place is given, with the directions that the track may have there.
+std::vector<End> given_ends(const Problem& problem) {
   const Limits& limits = problem.limits;
-  if (limits.envelope.is_line()) return std::nullopt;
-  const std::vector<task::Obstacle> obstacles = task::obstacles_of(limits);
-  if (obstacles.empty()) return std::nullopt;
   const bool from_start = problem.places_from == PlacesFrom::start;
   const bool both = problem.finish.kind == FinishKind::point;
   const Vec2 way{std::fabs(problem.endpoints.run), problem.endpoints.drop};
@@ -163,7 +159,37 @@ std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldD
     ends.push_back(
         end_of("the finish", from_start ? way : Vec2{}, limits.exit_slope_angle, limits.slope_angle));
   }
-  for (const End& end : ends) {
+  return ends;
+}
+
+}  // namespace
+
+std::optional<Conflict> on_other_side_at_an_end(const Problem& problem) {
+  for (const task::Obstacle& obstacle : task::obstacles_of(problem.limits)) {
+    if (obstacle.limit.id != LimitId::keep_outs) continue;
+    const KeepOut& area = problem.limits.keep_outs[obstacle.limit.index];
+    if (area.passage == Passage::either) continue;
+    const bool below = area.passage == Passage::below;
+    for (const End& end : given_ends(problem)) {
+      const std::array<Vec2, 2> place{end.point, end.point};
+      if (!(obstacle.region.nearest(place).value < 0.0)) continue;
+      Conflict conflict;
+      conflict.limits.push_back({obstacle.limit, obstacle.clearance});
+      conflict.text = std::string(end.name) + " lies " + (below ? "above " : "below ") +
+                      obstacle.limit.key() + ", which is to be passed " + (below ? "below" : "above");
+      conflict.why = "A track that ends there does not pass it on that side, however it leads.";
+      return conflict;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldDo& would_do) {
+  const Limits& limits = problem.limits;
+  if (limits.envelope.is_line()) return std::nullopt;
+  const std::vector<task::Obstacle> obstacles = task::obstacles_of(limits);
+  if (obstacles.empty()) return std::nullopt;
+  for (const End& end : given_ends(problem)) {
     const bool given = end.flattest <= end.steepest;
     if (given && lacking(end, limits.envelope, obstacles) > 0.0) {
       return conflict_at(end, limits.envelope, obstacles, would_do);

@@ -17,4 +17,8 @@ namespace glissade::optimizer {
 [[nodiscard]] std::optional<Conflict> too_close_at_an_end(
     const Problem& problem, const std::function<bool(const LimitName&, double)>& would_do);
 
+/// A start or a finish on the side of a keep-out that is not to be passed: no track ends there.
+/// @return that keep-out; none if both ends lie where they may
+[[nodiscard]] std::optional<Conflict> on_other_side_at_an_end(const Problem& problem);
+
 }  // namespace glissade::optimizer

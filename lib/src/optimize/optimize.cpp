@@ -457,6 +457,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
                         resolve.anew(*changed, std::numeric_limits<int>::max(), {}));
   };
   if (!at_once) at_once = beside_mean_slope(problem, options.limit_tolerance, would_do);
+  if (!at_once) at_once = on_other_side_at_an_end(problem);
   if (!at_once) at_once = too_close_at_an_end(problem, would_do);
   if (at_once) {
     tell_none(*std::move(at_once), true, false, report);

@@ -438,9 +438,12 @@ std::optional<Issue> search_problem(const Design& design, const Track& track) {
       is_least_bound(design.objective.kind) ? "Every limit holds, but a tighter bound may do."
       : to_first_order ? "Every limit holds, and no track near is better to first order; farther ones were "
                          "not all looked at."
-                       : "Every limit holds, but a better track may be near: the first-order residual is " +
-                             rounded_text(track.search->first_order_residual, 2) + " instead of at most " +
-                             rounded_text(OptimizeOptions{}.tolerance, 2) + ".";
+      : !std::isfinite(track.search->first_order_residual)
+          ? "Every limit holds, but a better track may be near: how near an optimum this one is did not come "
+            "out."
+          : "Every limit holds, but a better track may be near: the first-order residual is " +
+                rounded_text(track.search->first_order_residual, 2) + " instead of at most " +
+                rounded_text(OptimizeOptions{}.tolerance, 2) + ".";
   return Issue{design.where("limits"),
                "the search for the track " + searched_name(design) +
                    (ended_early ? " ended early: " : " did not converge: ") + track.search->message,

@@ -160,6 +160,7 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
     }
     show(motion, points, watches);
     if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), end);
+    if (motion.stall()) watches.at_stall(motion.stall()->arc_length);
   }
   watches.ride_at({});
   watches.at_end(*track);

@@ -141,6 +141,12 @@ void Watches::at_measures(const Measures& measures, double s) {
   }
 }
 
+void Watches::at_stall(double s) {
+  // Where a lowest speed is to hold from a place behind it, too: the body never gets there.
+  see(LimitId::speed, 0.0, s);
+  see(LimitId::exit_speed, 0.0, s);
+}
+
 void Watches::at_exit_speed(double exit_speed, const CenterlinePoint& end) {
   see(LimitId::exit_speed, exit_speed, end.arc_length);
   if (!problem_.limits.match_belt) return;

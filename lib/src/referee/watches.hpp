@@ -58,6 +58,8 @@ class Watches {
   [[nodiscard]] Measures measures(const MotionState& state, const CenterlinePoint& point) const;
   void at_measures(const Measures& measures, double s);
   void at_exit_speed(double exit_speed, const CenterlinePoint& end);
+  /// The body comes to a stand there, before the finish, and gets no farther.
+  void at_stall(double s);
   void at_end(const Centerline& track);
   /// @param in,out  lengths of the straights that the track starts and ends with
   void at_leads(double in, double out, double length);
