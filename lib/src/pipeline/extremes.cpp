@@ -36,9 +36,12 @@ Extreme highest_between(double from, double to, const Quantity& quantity) {
   }
   const double left = station(std::max(highest_index - 1, 0));
   const double right = station(std::min(highest_index + 1, kSamples));
-  const auto negated = [&](double s) { return -quantity(s); };
-  const auto [at, lowest] = boost::math::tools::brent_find_minima(negated, left, right, kBits);
-  if (-lowest > highest) return {-lowest, at};
+  // In shares of the bracket: the search ends at a part of the number it is at, and that part of an arc length is much
+  // of a short stretch far along a track.
+  const auto place = [&](double share) { return std::lerp(left, right, share); };
+  const auto [share, lowest] =
+      boost::math::tools::brent_find_minima([&](double at) { return -quantity(place(at)); }, 0.0, 1.0, kBits);
+  if (-lowest > highest) return {-lowest, place(share)};
   return {highest, station(highest_index)};
 }
 

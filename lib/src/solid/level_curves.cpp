@@ -5,6 +5,7 @@
 
 #include "core/float_limits.hpp"
 #include "core/plane_geometry.hpp"
+#include "solid/least_between.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -177,12 +178,10 @@ void LevelCurves::shrink_ball(std::size_t probe, int side, bool exactly, Room& r
       const double low = probes_[nearest - std::min<std::size_t>(nearest, 1)].s;
       const double high = probes_[std::min(nearest + 1, probes_.size() - 1)].s;
       constexpr int kBits = 20;
-      std::uintmax_t iterations = 30;
-      const auto [s, height] = boost::math::tools::brent_find_minima(
-          [&](double there) {
-            return std::min(room_to(station_at(centerline_, there).point), 2.0 * smaller.height);
-          },
-          low, high, kBits, iterations);
+      constexpr std::uintmax_t kIterations = 30;
+      const auto [s, height] = least_between(low, high, kBits, kIterations, [&](double there) {
+        return std::min(room_to(station_at(centerline_, there).point), 2.0 * smaller.height);
+      });
       if (height < smaller.height) smaller = {height, s};
     }
     if (!(smaller.height < room.height)) return;

@@ -7,6 +7,7 @@
 #include "core/plane_geometry.hpp"
 #include "solid/cap_triangulation.hpp"
 #include "solid/chord_sagitta.hpp"
+#include "solid/least_between.hpp"
 #include "solid/level_curves.hpp"
 #include "solid/stations.hpp"
 #include "solid/sweep_plan.hpp"
@@ -23,8 +24,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-
-#include <boost/math/tools/minima.hpp>
 
 namespace glissade {
 
@@ -327,11 +326,12 @@ class Sweeper {
     };
     constexpr int kPieces = 16;
     constexpr int kBits = 20;
+    constexpr std::uintmax_t kIterations = 60;
     const double piece = (feet.to - feet.from) / kPieces;
     for (int k = 0; k <= kPieces && least > enough; ++k) take(feet.from + piece * k);
     if (least == alone || least <= enough) return least;
-    take(boost::math::tools::brent_find_minima(distance_at, std::max(feet.from, nearest - piece),
-                                               std::min(feet.to, nearest + piece), kBits)
+    take(least_between(std::max(feet.from, nearest - piece), std::min(feet.to, nearest + piece), kBits,
+                       kIterations, distance_at)
              .first);
     return least;
   }
