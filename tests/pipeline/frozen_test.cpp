@@ -3,8 +3,11 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/design/design.hpp"
+#include "glissade/pipeline.hpp"
 
+#include "pipeline/extremes.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <string>
@@ -104,6 +107,40 @@ TEST_CASE("a frozen track rides as the track that was found, at its own and at o
     const auto twice = directory / "twice.yaml";
     write_frozen_design(twice, frozen, again);
     CHECK(solve(read_design(twice)).motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("stations of a track, read back with slope angles and curvatures, are that track to 1e-9") {
+  constexpr double kSame = 1e-9;  // accuracy: docs/design-file.md
+  const TempDir directory;
+  std::vector<Design> designs;
+  for (const Case& item : cases()) designs.push_back(parse_design(item.text, directory / "design.yaml"));
+  for (const char* const name : {"sand_ski_ramp.yaml", "ski_jump_inrun.yaml", "toboggan_run.yaml",
+                                 "hills/garmisch_hs142.yaml", "powder_chute.yaml"}) {
+    designs.push_back(read_design(designs_path(name)));
+  }
+  for (const Design& design : designs) {
+    INFO(design.name << ", " << word(design.centerline.kind));
+    const Track found = solve(design);
+    write_track_csv(directory / "stations.csv", found);
+    write_frozen_design(directory / "frozen.yaml", design, found);
+    Design stations = read_design(directory / "frozen.yaml");
+    stations.centerline = {};
+    stations.centerline.kind = CenterlineKind::points;
+    stations.centerline.points_file = directory / "stations.csv";
+    stations.centerline.points_distance_column = "run_m";
+    stations.centerline.points_height_column = "z_m";
+    stations.centerline.points_slope_angle_column = "slope_angle_deg";
+    stations.centerline.points_curvature_column = "curvature_per_m";
+    const Track again = solve(stations);
+    CHECK(again.centerline->length() == Approx(found.centerline->length()).epsilon(kSame));
+    CHECK(again.endpoints.drop == Approx(found.endpoints.drop).epsilon(kSame));
+    CHECK(again.motion.travel_time() == Approx(found.motion.travel_time()).epsilon(kSame));
+    CHECK(again.motion.exit_speed() == Approx(found.motion.exit_speed()).epsilon(kSame));
+    CHECK(again.motion.highest_load().normal_load ==
+          Approx(found.motion.highest_load().normal_load).epsilon(kSame).margin(kSame));
+    CHECK(pipeline::smallest_radius(*again.centerline) ==
+          Approx(pipeline::smallest_radius(*found.centerline)).epsilon(kSame));
   }
 }
 

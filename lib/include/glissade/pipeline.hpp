@@ -19,8 +19,9 @@ namespace glissade {
 
 /// The one way that data flow: design -> centerline -> motion -> solid -> files.
 
-/// Writes a track and the ride down it by stations, as the format csv does: some 400, closer together near the
-/// start, and one at each jump of curvature. No cross-section is needed.
+/// Writes a track and the ride down it by stations, as the format csv does: 400, closer together near the start, one at
+/// each jump of curvature, and those between that TabulatedCurve needs to make the track of the table again, to
+/// kTableAccuracy. No cross-section is needed.
 /// @throws FileError as AtomicFile
 void write_track_csv(const std::filesystem::path& file, const Track& track);
 

@@ -159,6 +159,43 @@ std::optional<double> curvature_rate(const TabulatedPoint& a, const TabulatedPoi
   return std::isfinite(rate) ? std::optional(rate) : std::nullopt;
 }
 
+/// Curvature in the mean between two rows as their slope angles have it, whichever comes first along the track.
+double mean_curvature(const TabulatedPoint& a, const TabulatedPoint& b, double length) {
+  return (a.slope_angle - b.slope_angle) / length;
+}
+
+/// Arc length between two rows: that of an arc over their chord, which is that of the curve to fourth order.
+double arc_between(const TabulatedPoint& a, const TabulatedPoint& b) {
+  const double turn = a.slope_angle - b.slope_angle;
+  return norm(Vec2{b.x - a.x, b.drop - a.drop}) * (1.0 + turn * turn / 24.0);
+}
+
+/// The curvature with which a stretch comes to a jump at its end, where the table tells that of the other side: of the
+/// cubic that has the curvatures of the two rows before and turns as slope angles say. The line through the stretch alone
+/// is taken where there is no row further away, or where that is so far off the cubic that columns are rounded.
+/// @param sign   1 where the rows come in the table's order, -1 where they come in the other
+double curvature_up_to_jump(const TabulatedPoint* further, const TabulatedPoint& near,
+                            const TabulatedPoint& jump, double sign) {
+  constexpr double kRounded = 1e-3;  // taste: of the curvature's jump; lines err by less on stations of 0.3 m
+  const double length = arc_between(near, jump);
+  const double mean = sign * mean_curvature(near, jump, length);
+  const double line = 2.0 * mean - near.curvature;
+  if (!further) return line;
+  // kappa = near + b u + c u^2 + d u^3 over u, 0 at the near row and -1 at the further one.
+  const double unit = arc_between(*further, near);
+  const double ratio = length / unit;
+  const double by_ends = near.curvature - further->curvature;
+  const double by_mean = near.curvature - sign * mean_curvature(*further, near, unit);
+  const double ahead = (mean - near.curvature) / ratio;
+  const double bend = by_mean - 0.5 * by_ends;
+  const double d =
+      4.0 * (ahead - 0.5 * by_ends - (3.0 + 2.0 * ratio) * bend) / ((1.0 + ratio) * (1.0 + ratio));
+  const double c = 6.0 * bend + 1.5 * d;
+  const double b = by_ends + c - d;
+  const double cubic = near.curvature + ratio * (b + ratio * (c + ratio * d));
+  return std::fabs(cubic - line) <= kRounded * std::fabs(line - jump.curvature) ? cubic : line;
+}
+
 /// The rows that say a jump of curvature between rows `at` - 1 and `at`, if their slope angles show one that the table does
 /// not say by two rows: stations have the curvature behind a jump alone. The cubic would swing past both curvatures by
 /// up to a third of the jump, and with it the smallest radius and the highest load of the track.
@@ -184,12 +221,12 @@ std::vector<TabulatedPoint> jump_between(const std::vector<TabulatedPoint>& rows
   if (share < -kAtTheRow || share > 1.0 + kAtTheRow || std::fabs(share - 0.5) < 0.5 - kCubicDoes) return {};
   if (share < kAtTheRow) {
     TabulatedPoint behind = left;
-    behind.curvature = 2.0 * mean - right.curvature;
+    behind.curvature = curvature_up_to_jump(after ? &rows[at + 1] : nullptr, right, left, -1.0);
     return {behind};
   }
   if (share > 1.0 - kAtTheRow) {
     TabulatedPoint ahead = right;
-    ahead.curvature = 2.0 * mean - left.curvature;
+    ahead.curvature = curvature_up_to_jump(before ? &rows[at - 2] : nullptr, left, right, 1.0);
     return {ahead};
   }
   TabulatedPoint ahead = left;
@@ -203,13 +240,26 @@ std::vector<TabulatedPoint> jump_between(const std::vector<TabulatedPoint>& rows
   return {ahead, behind};
 }
 
+/// The row in which a flight from `left` ends, where `right` is that row but for its curvature: stations tell the one
+/// behind the place where a body lands. Nothing else would be the parabola to rounding, which contact asks for.
+std::optional<TabulatedPoint> end_of_flight(const TabulatedPoint& left, const TabulatedPoint& right) {
+  const double cosine = math::cos(right.slope_angle);
+  TabulatedPoint end = right;
+  end.curvature = -parabola_rate(left.slope_angle, left.curvature) * (cosine * cosine * cosine);
+  return on_one_flight(left, end) ? std::optional(end) : std::nullopt;
+}
+
 /// The rows, and those of jumps that only the slope angles show.
 std::vector<TabulatedPoint> with_jumps(const std::vector<TabulatedPoint>& rows) {
   std::vector<TabulatedPoint> all;
   all.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i > 0 && !same_place(rows[i - 1], rows[i]) && !on_one_flight(rows[i - 1], rows[i])) {
-      for (const TabulatedPoint& row : jump_between(rows, i)) all.push_back(row);
+      if (const auto end = end_of_flight(rows[i - 1], rows[i])) {
+        all.push_back(*end);
+      } else {
+        for (const TabulatedPoint& row : jump_between(rows, i)) all.push_back(row);
+      }
     }
     all.push_back(rows[i]);
   }
@@ -412,7 +462,9 @@ namespace {
 /// Rows of a curve between two breaks, as dense as the cubic between them asks for.
 class TableRows {
  public:
-  explicit TableRows(const Centerline& curve) : curve_(curve), root_(curve.unbounded_curvature_at_start()) {}
+  /// @param coarser  how many times what a table of its own is off by is close enough
+  explicit TableRows(const Centerline& curve, double coarser = 1.0)
+      : curve_(curve), coarser_(coarser), root_(curve.unbounded_curvature_at_start()) {}
 
   /// Adds the rows from one place up to, and without, another one.
   void add(double from, double to) {
@@ -421,7 +473,12 @@ class TableRows {
     const double high = parameter(to);
     for (int i = 0; i < kFewest; ++i) {
       const double width = (high - low) / kFewest;
-      refine(low + width * i, low + width * (i + 1), 0);
+      std::vector<double> parameters;
+      part(low + width * i, low + width * (i + 1), kMostHalvings, parameters);
+      for (const double p : parameters) {
+        const double s = place(p);
+        add_row(s, s == 0.0 && root_ ? HUGE_VAL : curve_.direction(s).curvature);
+      }
     }
   }
   void add_row(double s, double curvature) {
@@ -429,9 +486,24 @@ class TableRows {
     rows.push_back({point.x, point.drop, point.slope_angle, curvature});
   }
 
+  /// @return `places` and those between two of them that the cubic asks for, too
+  [[nodiscard]] std::vector<double> with_places_between(const std::vector<double>& places) const {
+    constexpr int kMostHalvingsOfStep = 5;  // budget: stations are close already
+    std::vector<double> all;
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      std::vector<double> parameters;
+      part(parameter(places[i]), parameter(places[i + 1]), kMostHalvingsOfStep, parameters);
+      all.push_back(places[i]);
+      for (std::size_t k = 1; k < parameters.size(); ++k) all.push_back(place(parameters[k]));
+    }
+    if (!places.empty()) all.push_back(places.back());
+    return all;
+  }
+
   std::vector<TabulatedPoint> rows;
 
  private:
+  static constexpr int kMostHalvings = 14;
   [[nodiscard]] double parameter(double s) const { return root_ ? std::sqrt(s) : s; }
   [[nodiscard]] double place(double p) const { return std::min(root_ ? p * p : p, curve_.length()); }
   /// d zeta/dp; none where curvature has no bound.
@@ -439,16 +511,15 @@ class TableRows {
     return -curve_.direction(place(p)).curvature * (root_ ? 2.0 * p : 1.0);
   }
 
-  void refine(double a, double b, int depth) {
-    constexpr int kDeepest = 14;
-    if (depth < kDeepest && !follows(a, b)) {
+  /// Appends the parameters from a up to, and without, b between which the cubic is the curve.
+  void part(double a, double b, int halvings, std::vector<double>& parameters) const {
+    if (halvings > 0 && !follows(a, b)) {
       const double middle = 0.5 * (a + b);
-      refine(a, middle, depth + 1);
-      refine(middle, b, depth + 1);
+      part(a, middle, halvings - 1, parameters);
+      part(middle, b, halvings - 1, parameters);
       return;
     }
-    const double s = place(a);
-    add_row(s, s == 0.0 && root_ ? HUGE_VAL : curve_.direction(s).curvature);
+    parameters.push_back(a);
   }
 
   /// Whether the cubic between two rows is the curve, in slope angle and in how it changes.
@@ -468,8 +539,8 @@ class TableRows {
   }
 
   [[nodiscard]] bool follows_cubic(double a, double b) const {
-    constexpr double kSlope = 1e-12;
-    constexpr double kTurning = 1e-10;
+    const double slope = 1e-12 * coarser_;
+    const double most_turning = 1e-10 * coarser_;
     const double width = b - a;
     // What comes right before b counts: curvature may jump there.
     const double near = std::nextafter(b, a);
@@ -481,14 +552,15 @@ class TableRows {
     set_cubic(cubic, from, rise_from, to, rise_to);
     for (const double u : {0.25, 0.5, 0.75}) {
       const double p = a + u * width;
-      const double turning = kTurning * (1.0 + std::fabs(rise_from) + std::fabs(rise_to));
-      if (std::fabs(value_of(cubic, u) - curve_.slope_angle(place(p))) > kSlope) return false;
+      const double turning = most_turning * (1.0 + std::fabs(rise_from) + std::fabs(rise_to));
+      if (std::fabs(value_of(cubic, u) - curve_.slope_angle(place(p))) > slope) return false;
       if (std::fabs(rise_of(cubic, u) - rise(p) * width) > turning * width) return false;
     }
     return true;
   }
 
   const Centerline& curve_;
+  double coarser_;
   bool root_;
 };
 
@@ -510,6 +582,12 @@ std::vector<TabulatedPoint> table_of(const Centerline& curve) {
     }
   }
   return std::move(table.rows);
+}
+
+std::vector<double> places_for_table(const Centerline& curve, const std::vector<double>& places) {
+  // measured: loads and radii of shipped designs come back to 4e-10; at 20 to 1.5e-9, at 1 with half as many rows again
+  constexpr double kCoarser = 4.0;
+  return TableRows(curve, kCoarser).with_places_between(places);
 }
 
 }  // namespace glissade

@@ -1,5 +1,6 @@
 #include "pipeline/stations.hpp"
 
+#include "glissade/centerline/tabulated_curve.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
 
@@ -86,7 +87,10 @@ StationTable pipeline::stations_of(const Track& track, const std::vector<double>
 }
 
 void write_track_csv(const std::filesystem::path& file, const Track& track) {
-  write_stations_csv(file, pipeline::stations_of(track, report::track_stations(*track.centerline)));
+  // Kind `points` reads the table back: it is as dense as that asks for.
+  const Centerline& centerline = *track.centerline;
+  write_stations_csv(
+      file, pipeline::stations_of(track, places_for_table(centerline, report::track_stations(centerline))));
 }
 
 }  // namespace glissade

@@ -40,7 +40,9 @@ struct TableFault {
 /// from the table, too.
 /// Frame: the first row is the start. Where the last row lies to the left of the first, the table is mirrored.
 /// Curve: slope angle and curvature continuous but at jumps; smooth between breaks(), which are rows and jumps.
-/// Accuracy: fourth order in the distance of the rows; table_of() keeps travel times to kTableAccuracy.
+/// Accuracy: fourth order in the distance of the rows, third in curvature where that is not linear between them. table_of()
+///   and places_for_table() keep travel times to kTableAccuracy. A jump of curvature in one row: to 1e-9 in what
+///   places_for_table() has, by the line through the stretch alone where columns are rounded.
 class TabulatedCurve final : public Centerline {
  public:
   /// @param rows  in order along the track, at least 2
@@ -87,6 +89,12 @@ class TabulatedCurve final : public Centerline {
 
 /// @return a table of the curve so dense that TabulatedCurve gives it back to kTableAccuracy
 [[nodiscard]] std::vector<TabulatedPoint> table_of(const Centerline& curve);
+
+/// @param places  arc lengths on the curve, ascending, every break of it among them
+/// @return these and as many between them as TabulatedCurve needs to give the curve back from rows there, to
+///   kTableAccuracy
+[[nodiscard]] std::vector<double> places_for_table(const Centerline& curve,
+                                                   const std::vector<double>& places);
 
 /// Stated bound of the relative error of travel time, exit speed and length on TabulatedCurve(table_of(curve)), for
 /// curves that this library knows.
