@@ -199,7 +199,7 @@ std::string removed_lines(const std::vector<std::filesystem::path>& removed) {
 std::string earlier_file_lines(const Build& build) {
   std::string text = removed_lines(build.removed);
   for (const std::filesystem::path& file : build.set_aside) {
-    text += file.string() + "  set aside: it was in the way and not as a build wrote it\n";
+    text += file.string() + "  set aside: it was in the way and not as a build of this design wrote it\n";
   }
   if (text.empty()) return "";
   text.pop_back();

@@ -135,6 +135,39 @@ TEST_CASE("designs of one name from different directories do not replace each ot
   CHECK(names_in(builds.out()) == Names{".x.sha256", "x.stl"});
 }
 
+TEST_CASE("a design whose file has the name of another's is refused, and nothing is set aside") {
+  const Builds builds;
+  put_bytes(builds.place() / "a.ascii.yaml", kSlab);
+  const auto build = [&](const std::string& design, const std::string& formats) {
+    return glissade_run(
+        {"build", design + ".yaml", "-o", "out", "--no-report", "--set", "export=[" + formats + "]"},
+        {builds.place().path(), {}, {}});
+  };
+  builds.build("a", "stl, stl-ascii");
+  const Names files{".a.sha256", "a.ascii.stl", "a.stl"};
+  CHECK(names_in(builds.out()) == files);
+  const std::string first = bytes_of(builds.out("a.ascii.stl"));
+  const Outcome refused = build("a.ascii", "stl");
+  CHECK(refused.exit_code == 5);
+  CHECK_THAT(refused.errors, Contains("out/a.ascii.stl: a build of another design, ") &&
+                                 Contains("a.yaml, wrote this file") &&
+                                 Contains("another directory with -o"));
+  CHECK(names_in(builds.out()) == files);
+  CHECK(bytes_of(builds.out("a.ascii.stl")) == first);
+
+  // The other way round as well; and without the file of that name both are built.
+  CHECK(build("a.ascii", "off").exit_code == 0);
+  builds.build("a", "stl");
+  CHECK(build("a.ascii", "stl").exit_code == 0);
+  CHECK(build("a", "stl, stl-ascii").exit_code == 5);
+  CHECK(names_in(builds.out()) == Names{".a.ascii.sha256", ".a.sha256", "a.ascii.stl", "a.stl"});
+
+  // Of a design that is gone, or of a file that was changed, it is set aside.
+  fs::remove(builds.place() / "a.ascii.yaml");
+  builds.build("a", "stl, stl-ascii");
+  CHECK(fs::exists(builds.out("a.ascii.stl.kept")));
+}
+
 TEST_CASE("a file that was changed since it was built is not removed") {
   const Builds builds;
   builds.build("a", "stl, scad");
@@ -153,7 +186,7 @@ TEST_CASE("a file in the way that no build wrote, or that was changed, keeps its
   CHECK(names_in(builds.out()) == Names{".a.sha256", "a.stl", "a.stl.kept"});
   CHECK(bytes_of(builds.out("a.stl.kept")) == "somebody's");
   CHECK_THAT(outcome.output,
-             Contains("a.stl.kept  set aside: it was in the way and not as a build wrote it"));
+             Contains("a.stl.kept  set aside: it was in the way and not as a build of this design wrote it"));
 
   put_bytes(builds.out("a.stl"), "changed");
   builds.build("a", "stl");

@@ -160,6 +160,39 @@ void require_same_design(const fs::path& target, const std::string& owner, const
        "another directory with -o, or another name for one of the design files"});
 }
 
+namespace {
+
+/// A file that a build of another design wrote, which is still there, and that design.
+struct FileOfAnother {
+  std::string name;
+  fs::path design;
+};
+
+/// Of files that are in the way and not of this owner, the first that is another design's: `a` writes a.ascii.stl, and
+/// so does `a.ascii`.
+std::optional<FileOfAnother> file_of_another(const fs::path& target, const std::string& owner,
+                                             const fs::path& design,
+                                             const std::vector<std::string>& in_the_way) {
+  if (in_the_way.empty() || design.empty()) return std::nullopt;
+  static const std::regex kList(R"(\.([^]+)\.sha256)");
+  std::error_code error;
+  for (auto entry = fs::directory_iterator(target, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    std::smatch parts;
+    const std::string list = entry->path().filename().string();
+    if (!std::regex_match(list, parts, kList) || parts.str(1) == owner) continue;
+    const OwnedFiles theirs = OwnedFiles::in(target, parts.str(1));
+    const auto other = theirs.other_design(target / design);
+    if (!other) continue;
+    const auto taken = std::find_if(in_the_way.begin(), in_the_way.end(),
+                                    [&](const std::string& name) { return theirs.unchanged(name); });
+    if (taken != in_the_way.end()) return FileOfAnother{*taken, *other};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 Staging::Staging(const fs::path& target, std::string owner, const fs::path& design)
     : target_(without_trailing_slash(target)), owner_(std::move(owner)) {
   require_same_design(target_, owner_, design);
@@ -215,6 +248,15 @@ fs::path Staging::path_for(const std::string& name) {
   return path;
 }
 
+void Staging::require_of_no_other(const std::vector<std::string>& in_the_way) const {
+  const auto theirs = file_of_another(target_, owner_, design_, in_the_way);
+  if (!theirs) return;
+  throw FileError({(target_ / theirs->name).string(),
+                   "a build of another design, " + theirs->design.string() + ", wrote this file",
+                   "Files are called after their design: " + owner_ + " has one of the same name.",
+                   "another directory with -o, or another name for one of the design files"});
+}
+
 Published Staging::publish() {
   const auto hold = Unfinished::hold();
   const fs::path made = directory_ / "new";
@@ -227,6 +269,11 @@ Published Staging::publish() {
 
   const OwnedFiles owned = OwnedFiles::in(target_, owner_);
   const std::set<std::string> wanted(names_.begin(), names_.end());
+  std::set<std::string> in_the_way;
+  for (const std::string& name : names_) {
+    if (fs::exists(fs::symlink_status(target_ / name)) && !owned.unchanged(name)) in_the_way.insert(name);
+  }
+  require_of_no_other({in_the_way.begin(), in_the_way.end()});
   Published published;
   Moves moves(attic);
   for (const std::string& name : names_) {
@@ -235,7 +282,7 @@ Published Staging::publish() {
       throw FileError({place.string(), "a directory has the name of a file to be written", "",
                        "another directory with -o"});
     }
-    if (fs::exists(fs::symlink_status(place)) && !owned.unchanged(name)) {
+    if (in_the_way.contains(name)) {
       published.set_aside.push_back(name_to_keep(place));
       moves.move(place, published.set_aside.back());
     }

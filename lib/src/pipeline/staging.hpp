@@ -47,10 +47,12 @@ class Staging {
   /// Moves every file to its place. An earlier file of the same owner is replaced, and removed where the new set
   /// lacks it; any other file that stands in the way keeps its bytes under a new name, NAME.kept. Should one move
   /// fail, those before it are undone.
-  /// @throws FileError if a place is taken by something that is no file, or a move fails
+  /// @throws FileError if a place is taken by something that is no file, or by what a build of another design wrote that
+  ///   is still there, or a move fails
   Published publish();
 
  private:
+  void require_of_no_other(const std::vector<std::string>& in_the_way) const;
   void lock_new_directory();
 
   std::filesystem::path target_;
