@@ -315,6 +315,9 @@ TEST_CASE("shapes of clearances are sound") {
   CHECK_THAT(problems_of_limits("stay_below: [{line: [[1 m, 2 m]]}]"), Contains("line: 1 point\n"));
   CHECK_THAT(problems_of_limits("half_planes: [{line: [[1 m, 2 m], [3 m, 2 m]], stay: left}]"),
              Contains("stay: left is no side of this line"));
+  const std::string one_point =
+      problems_of_limits("half_planes: [{line: [[1 m, 2 m], [1 m, 2 m]], stay: above}]");
+  CHECK_THAT(one_point, Contains("line: its two points are one") && !Contains("no side"));
   CHECK_THAT(problems_of_limits("half_planes: [{line: [[1 m, 2 m], [3 m, 2 m], [4 m, 2 m]], stay: above}]"),
              Contains("line: 3 points instead of 2"));
   CHECK_THAT(

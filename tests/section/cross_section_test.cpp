@@ -256,6 +256,11 @@ TEST_CASE("cross-section: either winding of a polygon is the same section") {
   CHECK(CrossSection::polygon(corners) == CrossSection::polygon(corners));
 }
 
+TEST_CASE("cross-section: slabs and track-grooves may be thicker than wide") {
+  CHECK(CrossSection::slab(0.1, 0.15).area() == Approx(0.1 * 0.15));
+  CHECK(CrossSection::track_groove(0.6, 0.135, 0.03, 0.32, 0.8).area() > 0.6 * 0.8);
+}
+
 TEST_CASE("cross-section: sizes that make no section are refused with their value and bound") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   CHECK(message_of([] { return CrossSection::u_channel(0.4, 0.25, 0.45); }) ==

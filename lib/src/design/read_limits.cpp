@@ -124,6 +124,13 @@ std::optional<HalfPlane> read_half_plane(const Value& value, Findings& findings)
                   "Two points give a straight line.", "stay_above or stay_below for a line with corners"});
     return {};
   }
+  if (line[0] == line[1]) {
+    findings.add(line_value->node->at, line_value->key_path,
+                 {"", "line: its two points are one",
+                  "Two points that differ give a straight line, as long as it likes.",
+                  "line: [[0 m, 2 m], [5 m, 2 m]]"});
+    return {};
+  }
   const std::optional<Vec2> forbidden = away_from(*stay, line[1] - line[0]);
   if (!forbidden) {
     findings.add(stay_value->node->at, stay_value->key_path,
