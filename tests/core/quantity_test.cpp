@@ -95,6 +95,14 @@ TEST_CASE("a character that only looks like a plain one is named, with what to w
                  Catch::Matchers::Contains("Try: 400 mm"));
   CHECK_THAT(refusal("\uff14 m", Dimension::length), Catch::Matchers::Contains("a full-width 4 (U+FF14)"));
   CHECK_THAT(refusal("90\u00ba", Dimension::angle), Catch::Matchers::Contains("Try: 90\u00b0"));
+  // On the screen it is the same letter.
+  CHECK(refusal("5 \u043c", Dimension::length) ==
+        "width: 5 \u043c holds a Cyrillic letter (U+043C)\n"
+        "      It takes blanks, digits and signs of the keyboard.\n"
+        "      Try: 5 m");
+  CHECK_THAT(refusal("5 c\u043c", Dimension::length), Catch::Matchers::Contains("Try: 5 cm"));
+  CHECK_THAT(refusal("5 \u0434\u043c", Dimension::length),
+             Catch::Matchers::Contains("the unknown unit \u0434\u043c"));
   // What is wrong beside it is said in the hint.
   CHECK_THAT(refusal("17\u00a0mm", Dimension::angle), Catch::Matchers::Contains("Try: 17 deg"));
 }

@@ -36,6 +36,14 @@ TEST_CASE("an odd character is found, named, made plain and made visible") {
   CHECK(with_visible_characters("ab\u202fc\u22121") == "ab<U+202F>c\u22121");
 }
 
+TEST_CASE("Cyrillic letters that look like Latin ones are odd, but in words that show their alphabet") {
+  CHECK(odd_character("m\u0430rble").value().name == "a Cyrillic letter (U+0430)");
+  CHECK(with_plain_characters("\u0440\u0430th") == "path");
+  const std::string word = "\u0448\u0438\u0440\u0438\u043d\u0430";
+  CHECK_FALSE(odd_character(word));
+  CHECK(with_plain_characters(word) == word);
+}
+
 TEST_CASE("text made plain has nothing odd left") {
   std::string all;
   for (unsigned code = 0x80; code < 0x10000; ++code) {

@@ -5,6 +5,7 @@
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -93,6 +94,17 @@ TEST_CASE("a byte order mark and line ends of two bytes are no problem") {
   for (const char letter : kSoundDesign) text += letter == '\n' ? "\r\n" : std::string(1, letter);
   CHECK(problems_of(text).empty());
   CHECK(parse_design(text, "d.yaml").where("body.friction_angle") == "d.yaml:7:19");
+}
+
+TEST_CASE("line ends that are carriage returns alone are told so") {
+  std::string text(kSoundDesign);
+  std::string windows;
+  for (const char letter : text) windows += letter == '\n' ? std::string("\r\n") : std::string(1, letter);
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  CHECK_THAT(problems_of(text), StartsWith("d.yaml:1:") &&
+                                    Contains("the line ends with a carriage return (CR) alone") &&
+                                    Contains("Try: to save the file with line ends LF or CRLF"));
+  CHECK(problems_of(windows) == problems_of(std::string(kSoundDesign)));
 }
 
 TEST_CASE("a design in another encoding is told so") {

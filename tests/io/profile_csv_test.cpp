@@ -59,6 +59,8 @@ TEST_CASE("what is wrong with a profile is told with line and column") {
              Contains("wall.csv:3:1: ") && Contains("too large") && Contains("unit"));
   CHECK_THAT(refusal(std::string(300, '\xff') + "\n\x01\n"), Contains("there is no column"));
   CHECK_THAT(refusal("x,z\n0,1 m\n"), Contains("1 m"));
+  CHECK_THAT(refusal("x,z\r0,1\r1,0\r"),
+             Contains("wall.csv:1:4: the line ends with a carriage return (CR) alone"));
   CHECK_THAT(refusal("x,z\n0,\u22121\n"), Contains("a minus sign (U+2212)") && Contains("Try: -1"));
   const TempDir place;
   CHECK_THROWS_AS(read_profile_csv(place / "nowhere.csv"), FileError);

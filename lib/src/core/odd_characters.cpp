@@ -50,6 +50,25 @@ constexpr std::array kOdd = {
     Odd{0xFEFF, 0xFEFF, "a byte order mark", "", false},
 };
 
+/// Cyrillic letters that look like a Latin one, as a keyboard writes them that was not switched back.
+struct Lookalike {
+  std::uint32_t letter;
+  const char* plain;
+};
+
+constexpr std::array kLookalikes = {
+    Lookalike{0x0405, "S"}, Lookalike{0x0406, "I"}, Lookalike{0x0408, "J"}, Lookalike{0x0410, "A"},
+    Lookalike{0x0412, "B"}, Lookalike{0x0415, "E"}, Lookalike{0x041A, "K"}, Lookalike{0x041C, "M"},
+    Lookalike{0x041D, "H"}, Lookalike{0x041E, "O"}, Lookalike{0x0420, "P"}, Lookalike{0x0421, "C"},
+    Lookalike{0x0422, "T"}, Lookalike{0x0425, "X"}, Lookalike{0x0430, "a"}, Lookalike{0x0435, "e"},
+    Lookalike{0x043A, "k"}, Lookalike{0x043C, "m"}, Lookalike{0x043E, "o"}, Lookalike{0x0440, "p"},
+    Lookalike{0x0441, "c"}, Lookalike{0x0442, "t"}, Lookalike{0x0443, "y"}, Lookalike{0x0445, "x"},
+    Lookalike{0x0455, "s"}, Lookalike{0x0456, "i"}, Lookalike{0x0458, "j"},
+};
+
+constexpr std::uint32_t kCyrillicFirst = 0x0400;
+constexpr std::uint32_t kCyrillicLast = 0x04FF;
+
 constexpr std::uint32_t kFullWidthFirst = 0xFF01;  // to U+FF5E: ASCII from '!' to '~', twice as wide
 constexpr std::uint32_t kFullWidthLast = 0xFF5E;
 
@@ -86,7 +105,29 @@ struct Meaning {
   bool visible = true;
 };
 
-std::optional<Meaning> meaning_of(std::uint32_t code_point) {
+const char* latin_of(std::uint32_t code_point) {
+  for (const Lookalike& known : kLookalikes) {
+    if (known.letter == code_point) return known.plain;
+  }
+  return nullptr;
+}
+
+/// Whether a text has Cyrillic letters that look like no Latin one: it is a word of that alphabet, and seen to be.
+bool is_seen_to_be_cyrillic(std::string_view text) {
+  for (std::size_t offset = 0; offset < text.size();) {
+    const CodePoint point = code_point_at(text, offset);
+    const bool cyrillic = point.value >= kCyrillicFirst && point.value <= kCyrillicLast;
+    if (point.bytes > 1 && cyrillic && !latin_of(point.value)) return true;
+    offset += point.bytes;
+  }
+  return false;
+}
+
+/// @param letters  whether Cyrillic letters that look like Latin ones are odd
+std::optional<Meaning> meaning_of(std::uint32_t code_point, bool letters) {
+  if (const char* const plain = latin_of(code_point); plain && letters) {
+    return Meaning{"a Cyrillic letter", plain, true};
+  }
   for (const Odd& odd : kOdd) {
     if (code_point < odd.first || code_point > odd.last) continue;
     return Meaning{odd.name, odd.plain, odd.visible};
@@ -100,10 +141,11 @@ std::optional<Meaning> meaning_of(std::uint32_t code_point) {
 template <typename Replace>
 std::string rewritten(std::string_view text, Replace&& replaced) {
   std::string result;
+  const bool letters = !is_seen_to_be_cyrillic(text);
   for (std::size_t offset = 0; offset < text.size();) {
     const CodePoint point = code_point_at(text, offset);
     const std::string_view as_it_is = text.substr(offset, point.bytes);
-    const auto meaning = point.bytes > 1 ? meaning_of(point.value) : std::nullopt;
+    const auto meaning = point.bytes > 1 ? meaning_of(point.value, letters) : std::nullopt;
     result += meaning ? replaced(point.value, *meaning, as_it_is) : std::string(as_it_is);
     offset += point.bytes;
   }
@@ -113,10 +155,11 @@ std::string rewritten(std::string_view text, Replace&& replaced) {
 }  // namespace
 
 std::optional<OddCharacter> odd_character(std::string_view text) {
+  const bool letters = !is_seen_to_be_cyrillic(text);
   for (std::size_t offset = 0; offset < text.size();) {
     const CodePoint point = code_point_at(text, offset);
     if (point.bytes > 1) {
-      const auto meaning = meaning_of(point.value);
+      const auto meaning = meaning_of(point.value, letters);
       if (meaning) return OddCharacter{offset, meaning->name + " (" + number_of(point.value) + ")"};
     }
     offset += point.bytes;

@@ -295,6 +295,18 @@ std::optional<Position> indented_with_tab(const Lines& lines, int last) {
   return {};
 }
 
+/// The first carriage return in the lines up to `last` that ends a line alone: the parser reads on in the same line.
+std::optional<Position> ended_by_return_alone(const Lines& lines, int last) {
+  const std::string_view text = lines.text();
+  for (std::size_t at = text.find('\r'); at != std::string_view::npos; at = text.find('\r', at + 1)) {
+    const std::size_t next = text.find_first_not_of('\r', at);
+    if (next == std::string_view::npos || lines.at_offset(at).line > last) break;
+    if (text[next] != '\n') return lines.at_offset(at);
+    at = next;
+  }
+  return {};
+}
+
 SyntaxProblem explained(const YAML::Exception& problem, const Lines& lines, const TreeBuilder& builder) {
   const Position at = lines.at_mark(problem.mark);
   const bool is_open =
@@ -304,6 +316,12 @@ SyntaxProblem explained(const YAML::Exception& problem, const Lines& lines, cons
     return {*tab,
             {"", "not valid YAML: a tab indents this line", "YAML indents with blanks alone.",
              hint_for(YAML::ErrorMsg::TAB_IN_INDENTATION)}};
+  }
+  if (const auto end = ended_by_return_alone(lines, at.line)) {
+    return {*end,
+            {"", "the line ends with a carriage return (CR) alone",
+             "Lines end with a line feed (LF), or with both; what follows reads as the same line.",
+             "to save the file with line ends LF or CRLF"}};
   }
   if (!is_open || !since) return {at, {"", "not valid YAML: " + problem.msg, "", hint_for(problem.msg)}};
   const bool map = problem.msg == YAML::ErrorMsg::END_OF_MAP_FLOW;

@@ -37,6 +37,14 @@ std::string read_csv_text(const std::filesystem::path& file, std::string_view wh
   if (!stream) throw system_error(file, "cannot read " + std::string(what), errno);
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  const std::size_t end = text.find('\r');
+  const bool goes_on = text.find_first_not_of('\r', end) != std::string::npos;
+  if (end != std::string::npos && goes_on && text.find('\n') == std::string::npos) {
+    throw FileError({file.string() + ":1:" + std::to_string(end + 1),
+                     "the line ends with a carriage return (CR) alone",
+                     "Lines end with a line feed (LF), or with both; the whole file reads as one line.",
+                     "to save it with line ends LF or CRLF (in Excel as CSV, not as CSV of Macintosh)"});
+  }
   return text;
 }
 

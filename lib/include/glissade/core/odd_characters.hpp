@@ -9,7 +9,8 @@ namespace glissade {
 
 /// Characters that look like a plain one, or like nothing, and come along when text is copied from a page or
 /// typed on a telephone: no-break and thin spaces, zero-width marks, the minus sign U+2212 and the dashes,
-/// curly quotes, full-width letters.
+/// curly quotes, full-width letters; and Cyrillic letters that look like Latin ones, in a text that has no other Cyrillic
+/// letter.
 struct OddCharacter {
   std::size_t offset = 0;  ///< of its first byte
   std::string name;        ///< "a no-break space (U+00A0)"
