@@ -345,4 +345,39 @@ TEST_CASE(
   }
 }
 
+// Within a piece the one may end and the other begin.
+TEST_CASE(
+    "a track that flies first and presses later follows each load where it binds: the looser, the faster") {
+  struct Before {
+    double load = 0.0;
+    double time = 0.0;
+    double price = 0.0;
+  };
+  Before before;
+  for (const double load : {14.02, 14.04, 14.06, 14.22, 14.24, 14.34, 14.36}) {
+    Problem problem;
+    problem.endpoints = {18.0, 23.0};
+    problem.body.friction = Friction::from_coefficient(0.41);
+    problem.body.entry_speed = 0.5;
+    problem.gravity = 9.81;
+    problem.limits.entry_slope_angle = Range::fixed(46.0 * std::numbers::pi / 180.0);
+    problem.limits.exit_slope_angle = Range::fixed(26.0 * std::numbers::pi / 180.0);
+    problem.limits.highest_normal_load = load;
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(load, report.brief());
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    const auto is_load = [](const ActiveLimit& active) {
+      return active.limit.id == LimitId::highest_normal_load;
+    };
+    const auto active = std::find_if(report.active.begin(), report.active.end(), is_load);
+    REQUIRE(active != report.active.end());
+    if (before.load > 0.0) {
+      const double won = before.time - report.travel_time;
+      CHECK(won > 0.0);
+      CHECK(won == Approx(0.5 * (load - before.load) * (before.price + active->price)).epsilon(0.02));
+    }
+    before = {load, report.travel_time, active->price};
+  }
+}
+
 }  // namespace load_arcs_test

@@ -33,6 +33,7 @@ struct HeldPiece {
   std::size_t piece = 0;
   std::size_t limit = 0;
   double price = 0.0;  ///< of the limit's rows within the piece
+  double share = 0.0;  ///< of the piece that the limit binds at a stretch
 };
 
 /// The curvature at which a load is at its bound, on the ride that is closest to it.
@@ -90,27 +91,33 @@ std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& fo
     }
     if (whole <= 0.0) continue;
     const Vector slack = slack_by_piece(problem, found, state, i);
-    const auto holds = [&](std::size_t piece) {
-      const double width = knots[piece + 1] - knots[piece];
-      const bool binds = std::any_of(bindings[i].begin(), bindings[i].end(), [&](const Span& span) {
+    // Up to which share of a piece the limit binds.
+    const auto bound = [&](std::size_t piece) {
+      double most = 0.0;
+      for (const Span& span : bindings[i]) {
         const double from = std::max(knots[piece], track.sigma_at(found.z, span.from));
         const double to = std::min(knots[piece + 1], track.sigma_at(found.z, span.to));
-        return to - from >= kHeld * width;
-      });
-      return binds || has_fine[piece] || slack[piece] <= kNearBound;
+        most = std::max(most, (to - from) / (knots[piece + 1] - knots[piece]));
+      }
+      return most;
     };
-    std::vector<bool> held(pieces);
+    Vector shares(pieces, -1.0);
     double stretch = 0.0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
-      held[piece] = holds(piece);
-      if (held[piece]) stretch += knots[piece + 1] - knots[piece];
+      const double share = bound(piece);
+      if (share < kHeld && !has_fine[piece] && slack[piece] > kNearBound) continue;
+      shares[piece] = share;
+      stretch += knots[piece + 1] - knots[piece];
     }
     const double part_of_core = problem.entry_speed2 > 0.0 ? std::min(1.0, kShort * stretch) : 1.0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
-      if (!held[piece]) continue;
+      if (shares[piece] < 0.0) continue;
       const double width = knots[piece + 1] - knots[piece];
       const double cost = std::max(price[piece], whole * width / part_of_core);
-      if (!best[piece] || cost > best[piece]->price) best[piece] = HeldPiece{piece, i, cost};
+      // Of two that meet within a piece it follows the one that most of it is bound by.
+      const bool is_first = !best[piece] || shares[piece] > best[piece]->share ||
+                            (shares[piece] == best[piece]->share && cost > best[piece]->price);
+      if (is_first) best[piece] = HeldPiece{piece, i, cost, shares[piece]};
     }
   }
   std::vector<HeldPiece> held;
