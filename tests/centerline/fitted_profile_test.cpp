@@ -425,6 +425,22 @@ TEST_CASE("noise on few points is not followed as if it were their shape") {
   CHECK(told == 0);
 }
 
+TEST_CASE("a point far off the others is told, whether they are exact or scatter") {
+  const ClothoidSpline truth(Angle::from_degrees(35.0), {{50.0, 0.0, 0.0}, {50.0, 1.0 / 60.0, 1.0 / 60.0}});
+  for (const double noise : {0.0, 0.002}) {
+    INFO("noise " << noise);
+    Random random(5);
+    std::vector<Vec2> points = sampled(truth, 100, noise, random);
+    CHECK_FALSE(FittedProfile(points).farthest_stands_out());
+    points[33].y += 0.1;
+    const FittedProfile slipped(points);
+    REQUIRE(slipped.farthest_stands_out());
+    CHECK(*slipped.farthest_stands_out() > 6.0);
+    CHECK(slipped.farthest_point() == 33U);
+    CHECK_FALSE(FittedProfile(points, {0.2}).farthest_stands_out());
+  }
+}
+
 TEST_CASE("a profile that runs back is refused by the number of the point") {
   std::vector<Vec2> points;
   for (int i = 0; i < 60; ++i) points.push_back({2.5 * i - (i == 31 ? 4.0 : 0.0), 1.0 * i});

@@ -56,3 +56,28 @@ TEST_CASE(
   CHECK(radius_of(arc_on_site(0.02, false), "[x_m, z_m]") == Approx(12.0).epsilon(2e-3));
   CHECK(radius_of(arc_on_site(std::numbers::pi / 2.0, false), "[y_m, z_m]") == Approx(12.0).epsilon(1e-3));
 }
+
+TEST_CASE("a point that lies far off the others is named, with its place and by how much") {
+  const auto warned = [](double slip) {
+    std::string text = "run_m,z_m\n";
+    for (int i = 0; i < 100; ++i) {
+      const double slope = (35.0 - 0.3 * i) * std::numbers::pi / 180.0;
+      const double z = 50.0 - 60.0 * std::cos(slope) - (i == 33 ? slip : 0.0);
+      text += exact_text(60.0 * (std::sin(35.0 * std::numbers::pi / 180.0) - std::sin(slope))) + "," +
+              exact_text(z) + "\n";
+    }
+    const TempDir place;
+    put_bytes(place / "site.csv", text);
+    put_bytes(place / "d.yaml",
+              "glissade: 1\ntrack: {start: {x: 0 m, z: 9 m}}\nbody: {friction_coefficient: 0.05}\n"
+              "centerline: {kind: points, file: site.csv, columns: [run_m, z_m]}\n");
+    const Design design = read_design(place / "d.yaml");
+    std::string told;
+    for (const Issue& issue : warnings(design, solve(design))) told += to_text(issue) + "\n";
+    return told;
+  };
+  CHECK_THAT(warned(0.1), Contains("the curve misses point 34 of 100, at ") &&
+                              Contains(" of the track, by ") && Contains(" times as much as the others") &&
+                              Contains("that point looked at again, and left out if it is a slip"));
+  CHECK_THAT(warned(0.0), !Contains("the curve misses point"));
+}

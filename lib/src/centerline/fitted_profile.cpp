@@ -77,6 +77,19 @@ bool shows_pattern(const std::vector<PointDeviation>& deviations) {
   return together > least * squares;
 }
 
+/// By how many times as much as the others one point deviates, in the root of their mean square; none where there are too
+/// few others to tell.
+std::optional<double> apart_from_others(const std::vector<PointDeviation>& deviations, std::size_t one) {
+  constexpr std::size_t kFewest = 12;
+  if (deviations.size() < kFewest) return {};
+  double squares = 0.0;
+  for (std::size_t i = 0; i < deviations.size(); ++i)
+    if (i != one) squares += deviations[i].deviation * deviations[i].deviation;
+  const double others = std::sqrt(squares / static_cast<double>(deviations.size() - 1));
+  const double own = std::fabs(deviations[one].deviation);
+  return others > 0.0 ? std::optional(own / others) : std::nullopt;
+}
+
 const ProfileFit& checked(const ProfileFit& fit) {
   const bool usable = !fit.max_deviation || (*fit.max_deviation > 0.0 && std::isfinite(*fit.max_deviation));
   if (usable) return fit;
@@ -135,6 +148,11 @@ FittedProfile::FittedProfile(std::vector<Vec2> points, const ProfileFit& fit)
   constexpr double kNextToNothing = 1e-5;
   const double nothing = std::max(kNextToNothing * rms_bulge_, kRounded * last_place_);
   leaves_pattern_ = !fit.max_deviation && rms_deviation_ > nothing && shows_pattern(deviations_);
+  constexpr double kStandsOut = 6.0;  // noise has none of a million points beyond five
+  constexpr double kOfBulge = 1e-3;
+  if (fit.max_deviation || max_deviation() <= kOfBulge * rms_bulge_) return;
+  const std::optional<double> times = apart_from_others(deviations_, farthest_point_);
+  if (times && *times > kStandsOut) farthest_stands_out_ = times;
 }
 
 FittedProfile::Fitted FittedProfile::fitted(std::vector<Vec2> points, const ProfileFit& fit) {

@@ -76,6 +76,22 @@ std::optional<Issue> passed_over(const Design& design, const Track& track) {
                "Scatter has no such pattern: the points show bends that are not in the curve.", hint};
 }
 
+/// One point that the curve misses by far more than the others.
+std::optional<Issue> missed_alone(const Design& design, const Track& track) {
+  const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
+  if (profile == nullptr || !profile->farthest_stands_out()) return {};
+  const std::size_t index = profile->farthest_point();
+  return Issue{design.where("centerline"),
+               "the curve misses point " + std::to_string(index + 1) + " of " +
+                   std::to_string(profile->points().size()) + ", at " +
+                   length_text(profile->deviations()[index].arc_length) + " of the track, by " +
+                   length_text(profile->max_deviation(), 2) + ", " +
+                   rounded_text(*profile->farthest_stands_out(), 2) + " times as much as the others",
+               "One point that lies so far off is mostly a slip, or it alone shows a bend; speeds and loads "
+               "are those of the curve.",
+               "that point looked at again, and left out if it is a slip"};
+}
+
 /// Points whose scatter, or whose number, leaves open how sharply they bend.
 std::optional<Issue> radius_open(const Design& design, const Track& track) {
   const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
@@ -156,6 +172,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   add_places_beyond(design, track, found);
   if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
+  if (auto issue = missed_alone(design, track)) found.push_back(*std::move(issue));
   if (auto issue = radius_open(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);
   if (auto issue = belt_too_fast(design)) found.push_back(*std::move(issue));

@@ -120,6 +120,13 @@ class FittedProfile final : public Centerline {
   ///         max_deviation was asked for, which leaves such a pattern by design, nor of deviations that are next to
   ///         nothing.
   [[nodiscard]] bool leaves_pattern() const noexcept { return leaves_pattern_; }
+  /// @return by how many times as much as the other points in the root of their mean square the curve misses the
+  ///         farthest_point(): a slip of whoever measured it, or a bend that it alone shows. None up to 6 times, as far as
+  ///         noise goes, nor of fewer than 12 points, of 0.1 % of the profile's own shape or less (as leaves_out_much()
+  ///         has it), or where a max_deviation was asked for.
+  [[nodiscard]] const std::optional<double>& farthest_stands_out() const noexcept {
+    return farthest_stands_out_;
+  }
   /// @return the largest curvatures of curves that describe the points as well as curve() does, as far as a profile
   ///         likelihood or a Bayesian score within 6 of the best one goes: of the pieces, wherever they end, and of other
   ///         pieces in their place; of the smooth curve, two standard deviations of Wahba's posterior. The curve's own
@@ -155,6 +162,7 @@ class FittedProfile final : public Centerline {
   double last_place_ = 0.0;
   std::optional<CurvatureRange> largest_curvature_;
   bool leaves_pattern_ = false;
+  std::optional<double> farthest_stands_out_;
 };
 
 /// The most knots of the smooth curve; along a spline through the points there are more.
