@@ -427,10 +427,25 @@ void add_freer_pieces(const PiecewiseProfile& profile, std::vector<PiecewiseProf
   }
 }
 
-/// The profile without one of the pieces between two points: noise makes such, no point shows what they are.
+/// The profile without one of the pieces between two points, or of few points at an end: noise makes such, no point shows
+/// what they are.
 void add_without_slivers(const PiecewiseProfile& profile, double spacing,
                          std::vector<PiecewiseProfile>& ways) {
   const std::vector<ProfilePiece>& pieces = profile.pieces;
+  if (pieces.size() < 2) return;
+  if (pieces.front().length < kFewPoints * spacing && pieces[1].shape != PieceShape::cubic) {
+    PiecewiseProfile next = profile;
+    next.pieces[1].length += pieces.front().length;
+    next.pieces[1].tied = false;
+    next.pieces.erase(next.pieces.begin());
+    ways.push_back(std::move(next));
+  }
+  if (pieces.back().length < kFewPoints * spacing && pieces[pieces.size() - 2].shape != PieceShape::cubic) {
+    PiecewiseProfile next = profile;
+    next.pieces[pieces.size() - 2].length += pieces.back().length;
+    next.pieces.pop_back();
+    ways.push_back(std::move(next));
+  }
   for (std::size_t k = 1; k + 1 < pieces.size(); ++k) {
     const bool cubic = pieces[k - 1].shape == PieceShape::cubic || pieces[k + 1].shape == PieceShape::cubic;
     if (pieces[k].length >= spacing || cubic) continue;

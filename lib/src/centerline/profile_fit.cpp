@@ -8,6 +8,7 @@
 #include "profile_description.hpp"
 #include "profile_interpolant.hpp"
 #include "profile_model.hpp"
+#include "profile_seen.hpp"
 #include "rounded_points.hpp"
 
 #include <algorithm>
@@ -426,49 +427,132 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
 std::optional<CurvatureRange> curvature_range(const Found& found, const std::vector<Vec2>& points,
                                               const std::optional<LastPlaces>& places) {
   if (!found.described()) return found.fitted.largest_curvature;
-  return widened(largest_curvature_of(*found.description, points, places), found.fitted.curve);
+  if (found.description->scattered)
+    return widened(largest_curvature_of(*found.description, points, places), found.fitted.curve);
+  std::vector<Vec2> seen = points;
+  for (Vec2& point : seen) point = point - found.fitted.start;
+  std::vector<double> stations;
+  for (const PointDeviation& point : deviations_from(found.fitted.curve, seen))
+    stations.push_back(point.arc_length);
+  constexpr double kRounding = 1e-12;  // rounding: of pieces and their places
+  const bool met = std::sqrt(found.description->mean_square) <= kRounding * found.fitted.curve.length();
+  return widened(largest_curvature_unseen(found.description->profile, stations, met), found.fitted.curve);
+}
+
+/// The largest curvature of a curve that was led through points, but for the outermost stretches between them.
+double largest_curvature_inside(const ClothoidSpline& through, std::size_t points) {
+  constexpr std::size_t kOutermost = 3;  // theory: one polynomial, which nothing holds at its end
+  const std::vector<ClothoidSegment>& segments = through.segments();
+  const std::size_t left_out = kOutermost * segments.size() / (points - 1);
+  double most = 0.0;
+  for (std::size_t k = left_out; k + left_out < segments.size(); ++k)
+    most = std::max({most, std::fabs(segments[k].entry_curvature), std::fabs(segments[k].exit_curvature)});
+  return most;
 }
 
 /// What exact points leave open of the largest curvature of the curve through them: by how much every second one of them has
-/// another.
+/// another. Where that is much and the curve is sharpest at an end, it may be so nowhere else.
+/// @param breaks  whether curvature breaks somewhere
 /// @return none where those are too few to tell
-std::optional<CurvatureRange> range_by_half(const ClothoidSpline& through, const std::vector<Vec2>& points) {
-  // Twice as dense, splines of fifth degree come nearer by a factor of sixteen, where points are few for their waves by less.
-  constexpr double kLeft = 0.25;
+std::optional<CurvatureRange> range_by_half(const ClothoidSpline& through, const std::vector<Vec2>& points,
+                                            bool breaks) {
+  // Twice as dense, splines of fifth degree come nearer by a factor of sixteen, where points are few for their waves by less,
+  // and beside a jump their curvature swings as far.
+  const double left = breaks ? 1.0 : 0.25;
   std::vector<Vec2> half;
   for (std::size_t i = 0; i < points.size(); i += 2) half.push_back(points[i]);
   if (half.size() < kFewestFollowed) return {};
   const auto other = follow_points(half);
   if (!other) return {};
   const double most = largest_curvature_of(through);
-  const double open = kLeft * std::fabs(most - largest_curvature_of(other->curve));
-  return CurvatureRange{std::max(0.0, most - open), most + open};
+  const double open = left * std::fabs(most - largest_curvature_of(other->curve));
+  const double inside = largest_curvature_inside(through, points.size());
+  const double inside_open = left * std::fabs(inside - largest_curvature_inside(other->curve, half.size()));
+  // An end that is sharper than all the rest is believed where points are dense.
+  constexpr double kDense = 0.002;  // measured: of waves from some fourteen points each
+  const bool end_alone = inside * (1.0 + kOpenRadius) < most && std::max(inside_open, open) > kDense * most;
+  double least = most - open;
+  if (open > kOpenRadius * most || end_alone) least = std::min(least, inside - inside_open);
+  return CurvatureRange{std::max(0.0, least), most + open};
 }
 
-/// Whether a curve through the points holds what the curve found leaves out, or leaves less open between them.
-bool follows_better(const FollowedProfile& followed, const Found& found, const std::vector<Vec2>& points,
+constexpr double kPlainly = 3.0;     // more than the points' own noise
+constexpr double kFewPieces = 3e-8;  // pieces, as near as this, tell more than a curve through all points
+
+/// A curve through the points beside the curve found.
+struct Comparison {
+  double missed = 0.0;       // by the curve found, in the root of the mean square, over its length
+  double noise = 0.0;        // of the points, over the same
+  double least_noise = 0.0;  // what may be no more than that
+  double least_told =
+      0.0;  // what pieces may leave of exact points, over the same: less is no evidence against them
+  bool breaks = false;  // neighbours foretell each other but in some places
+};
+
+Comparison compared(const FollowedProfile& followed, const Found& found, const std::vector<Vec2>& points,
                     const std::optional<LastPlaces>& places) {
-  constexpr double kPlainly = 3.0;  // more than the points' own noise
-  // Pieces that come so near are what was built.
+  // Pieces that come so near are what was built, whatever the points are.
   constexpr double kBuilt = 1e-5;
-  constexpr double kMet = 1e-8;
-  constexpr double kLittleOpen = 1e-7;
+  // Twice as dense, splines of fifth degree come nearer by a factor of sixteen to sixty-four, where curvature jumps by four.
+  constexpr double kLeft = 0.125;
   const double length = found.fitted.curve.length();
   std::vector<Vec2> seen = points;
   for (Vec2& point : seen) point = point - found.fitted.start;
-  const double missed = std::sqrt(mean_square_deviation(found.fitted.curve, seen)) / length;
+  // measured: of waves it is a tenth, of straights and arcs rounding
+  constexpr double kForetold = 1e-3;
+  Comparison result;
+  result.missed = std::sqrt(mean_square_deviation(found.fitted.curve, seen)) / length;
+  result.least_told = kBuilt;
   const auto count = static_cast<double>(std::min(points.size(), kMostFollowed));
-  double noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
-  if (places) noise = std::max(noise, std::sqrt(noise_of_rounding(points, *places)) / length);
-  // Few pieces, as near as this, tell more than many.
-  constexpr double kFewPieces = 3e-8;
+  result.noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
+  if (places) result.noise = std::max(result.noise, std::sqrt(noise_of_rounding(points, *places)) / length);
+  if (!followed.exact || places) return result;
+  // What a smooth curve leaves of exact points is its own stiffness.
+  if (const auto left = scatter_beside_neighbours(points)) {
+    result.noise = std::min(result.noise, left->all / length);
+    result.least_noise = std::min(result.noise, left->quarter / length);
+    result.breaks = followed.missed_by_half && left->quarter < kForetold * *followed.missed_by_half;
+  }
+  if (followed.missed_by_half) {
+    const double told = kLeft * std::max(*followed.missed_by_half, followed.between) / length;
+    result.least_told = std::clamp(told, kFewPieces, kBuilt);
+  }
+  return result;
+}
+
+/// Whether a curve through the points holds what the curve found leaves out, or leaves less open between them.
+bool follows_better(const FollowedProfile& followed, const Found& found, const Comparison& beside,
+                    const std::vector<Vec2>& points, const std::optional<LastPlaces>& places) {
+  constexpr double kMet = 1e-8;
+  constexpr double kLittleOpen = 1e-7;
+  const double length = found.fitted.curve.length();
   const double open = found.fitted.between;
   if (followed.recovered && !places)
-    return found.described() ? missed > kFewPieces : open > kLittleOpen * length;
+    return found.described() ? beside.missed > kFewPieces : open > kLittleOpen * length;
   const bool leaves_less_open = followed.between < open && open > kLittleOpen * length;
   if (!found.described() && followed.exact && !places && leaves_less_open) return true;
   return points.size() >= kFewestToValidate &&
-         missed > std::max(kPlainly * noise, found.described() ? kBuilt : kMet);
+         beside.missed > std::max(kPlainly * beside.noise, found.described() ? beside.least_told : kMet);
+}
+
+/// Whether pieces leave more of exact points than a drawing does, but less than a curve through them may be off.
+bool unsure(const FollowedProfile& followed, const Found& found, const Comparison& beside,
+            const std::optional<LastPlaces>& places) {
+  return found.described() && followed.exact && !places &&
+         beside.missed > std::max(kFewPieces, kPlainly * beside.least_noise);
+}
+
+/// The range widened by as much as another curve has another largest curvature, to both sides of the two, and by some share.
+CurvatureRange range_beside(const std::optional<CurvatureRange>& range, const ClothoidSpline& curve,
+                            const ClothoidSpline& other) {
+  const double own = largest_curvature_of(curve);
+  const double most = largest_curvature_of(other);
+  constexpr double kShare =
+      0.15;  // measured: pieces that leave something of exact points are off by up to this
+  const double open = std::max(std::fabs(own - most), kShare * own);
+  const CurvatureRange known = range.value_or(CurvatureRange{own, own});
+  return {std::max(0.0, std::min(known.least, std::min(own, most) - open)),
+          std::max(known.greatest, std::max(own, most) + open)};
 }
 
 }  // namespace
@@ -483,13 +567,18 @@ FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFi
   if (places) found.fitted.last_place = std::max(places->x, places->y);
   std::vector<Vec2> to_follow = thinned(points, kMostFollowed);
   auto followed = points.size() < kFewestFollowed ? std::nullopt : follow_points(to_follow);
-  if (!followed || !follows_better(*followed, found, points, places)) {
+  const Comparison beside = followed ? compared(*followed, found, points, places) : Comparison{};
+  if (!followed || !follows_better(*followed, found, beside, points, places)) {
     found.fitted.largest_curvature = curvature_range(found, points, places);
+    if (followed && unsure(*followed, found, beside, places)) {
+      found.fitted.largest_curvature =
+          range_beside(found.fitted.largest_curvature, found.fitted.curve, followed->curve);
+    }
     return std::move(found.fitted);
   }
   std::optional<CurvatureRange> range;
   if (!followed->recovered) {
-    if (followed->exact && !places) range = range_by_half(followed->curve, to_follow);
+    if (followed->exact && !places) range = range_by_half(followed->curve, to_follow, beside.breaks);
     if (!range) range = widened(curvature_range(found, points, places), followed->curve);
   }
   return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, range};

@@ -13,11 +13,12 @@ namespace glissade::centerline {
 /// A curve through all points, or through what is left of them without their noise.
 struct FollowedProfile {
   ClothoidSpline curve;
-  Vec2 start;              // where it begins, in the frame of the points
-  Cost cost;               // over the curve's length
-  bool exact = false;      // through the points as they are
-  bool recovered = false;  // the points are stations of this very curve
-  double between = 0.0;    // how far the points leave open where it passes between them [m]
+  Vec2 start;                              // where it begins, in the frame of the points
+  Cost cost;                               // over the curve's length
+  bool exact = false;                      // through the points as they are
+  bool recovered = false;                  // the points are stations of this very curve
+  double between = 0.0;                    // how far the points leave open where it passes between them [m]
+  std::optional<double> missed_by_half{};  // by a spline through every second point, of the others [m]
 };
 
 /// Leads a curve through points by a spline of fifth degree, over x or over arc length, whichever leaves less open

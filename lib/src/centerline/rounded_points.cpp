@@ -10,6 +10,7 @@ namespace glissade::centerline {
 namespace {
 
 constexpr std::size_t kFewest = 20;
+constexpr std::size_t kWindow = 9;  // neighbours that are looked at together
 
 /// The coarsest decimal place that all of the numbers keep; 0 where none does.
 double last_place(const std::vector<Vec2>& points, double Vec2::*coordinate) {
@@ -28,7 +29,6 @@ double last_place(const std::vector<Vec2>& points, double Vec2::*coordinate) {
 /// What a polynomial of third degree leaves of the middle one of five neighbours: with binomial weights of sixth
 /// order, of seven.
 double left_by_neighbours(const std::vector<Vec2>& points, std::size_t first) {
-  constexpr std::size_t kWindow = 9;
   const Vec2 chord = points[first + kWindow - 1] - points[first];
   const double length = norm(chord);
   // Newton's divided differences over the chord: the one of highest order, over the root of its weights' squares.
@@ -52,7 +52,6 @@ double left_by_neighbours(const std::vector<Vec2>& points, std::size_t first) {
 
 /// Whether a good part of the points scatter as rounding to this place makes them.
 bool scatter_by(double place, const std::vector<Vec2>& points) {
-  constexpr std::size_t kWindow = 9;
   constexpr double kLeast = 0.1;
   constexpr double kMost = 3.0;
   constexpr double kPart = 0.25;
@@ -82,7 +81,7 @@ std::optional<LastPlaces> last_places(const std::vector<Vec2>& points) {
   // Round numbers beside fine ones were chosen: they are exact.
   constexpr double kFiner = 0.5;
   const double x = places.x;
-  if (places.y > 0.0 && places.y < kFiner * places.x) places.x = 0.0;
+  if (places.y < kFiner * places.x) places.x = 0.0;
   if (x > 0.0 && x < kFiner * places.y) places.y = 0.0;
   const double place = std::max(places.x, places.y);
   if (place == 0.0 || !scatter_by(place, points)) return {};
@@ -109,6 +108,21 @@ double noise_of_rounding(const std::vector<Vec2>& points, const LastPlaces& plac
   }
   const auto chords = static_cast<double>(points.size() - 1);
   return (places.x * places.x * by_x + places.y * places.y * by_y) / (12.0 * chords);
+}
+
+std::optional<NeighbourScatter> scatter_beside_neighbours(const std::vector<Vec2>& points) {
+  if (points.size() < kFewest) return {};
+  std::vector<double> left;
+  double squares = 0.0;
+  for (std::size_t first = 0; first + kWindow <= points.size(); ++first) {
+    left.push_back(left_by_neighbours(points, first));
+    squares += left.back() * left.back();
+  }
+  const auto quarter = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 4);
+  std::nth_element(left.begin(), quarter, left.end());
+  // theory: a quarter of what is normally distributed lies within so many standard deviations
+  constexpr double kQuarter = 0.3186;
+  return NeighbourScatter{std::sqrt(squares / static_cast<double>(left.size())), *quarter / kQuarter};
 }
 
 }  // namespace glissade::centerline

@@ -25,4 +25,14 @@ struct LastPlaces {
 /// @return mean square of what rounding leaves across the points' line [m^2]
 [[nodiscard]] double noise_of_rounding(const std::vector<Vec2>& points, const LastPlaces& places);
 
+/// What neighbours do not foretell of each other [m]: as large as the noise of points that have some, next to nothing of exact
+/// points that are not few for their bends.
+struct NeighbourScatter {
+  double all = 0.0;      // in the root of the mean square, places where curvature breaks among them
+  double quarter = 0.0;  // by the quarter that is foretold best
+};
+
+/// @return none of fewer than 20 points
+[[nodiscard]] std::optional<NeighbourScatter> scatter_beside_neighbours(const std::vector<Vec2>& points);
+
 }  // namespace glissade::centerline

@@ -97,11 +97,15 @@ std::optional<Issue> radius_open(const Design& design, const Track& track) {
   const auto* const profile = dynamic_cast<const FittedProfile*>(track.centerline.get());
   if (profile == nullptr || !profile->leaves_radius_open()) return {};
   const CurvatureRange range = *profile->largest_curvature();
+  constexpr double kMet = 1e-9;  // rounding: of curves through points
+  const bool met = profile->rms_deviation() <= kMet * profile->length();
+  const std::string why =
+      met ? "The curve meets them, but they are few for its bends"
+          : "They scatter by " + length_text(profile->rms_deviation(), 2) + " in the root of the mean square";
   return Issue{design.where("centerline"),
                "the points leave the smallest radius open: the curve has " + length_text(track.min_radius) +
                    ", and " + radius_range_text(range) + " would describe them about as well",
-               "They scatter by " + length_text(profile->rms_deviation(), 2) +
-                   " in the root of the mean square; speeds and loads are those of the curve.",
+               why + "; speeds and loads are those of the curve.",
                "more points where the profile bends most, or more exact ones; the kind segments where its "
                "drawing is known"};
 }

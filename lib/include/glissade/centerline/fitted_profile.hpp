@@ -131,7 +131,9 @@ class FittedProfile final : public Centerline {
   ///         likelihood or a Bayesian score within 6 of the best one goes: of the pieces, wherever they end, and of other
   ///         pieces in their place; of the smooth curve, two standard deviations of Wahba's posterior. The curve's own
   ///         lies between. Of a curve through points that cross-validation would have left to noise, its own and the one of that
-  ///         other curve. None where the points show no noise, where too few of them tell, or with a max_deviation.
+  ///         other curve. Of exact points: of a curve through them, as far as the one through every second of them differs; of
+  ///         pieces only where fewer points lie along some than these have unknowns, or where they leave something of
+  ///         the points. None of other pieces, where too few points tell, or with a max_deviation.
   [[nodiscard]] const std::optional<CurvatureRange>& largest_curvature() const noexcept {
     return largest_curvature_;
   }
