@@ -79,29 +79,4 @@ TEST_CASE("referee: slopes, loads and speeds that are greatest between samples a
   }
 }
 
-TEST_CASE("referee: where a body comes to a stand no lowest speed is kept, behind it neither", "[limits]") {
-  const auto level = std::make_shared<const ClothoidSpline>(Angle::from_degrees(0.0),
-                                                            std::vector<ClothoidSegment>{{2.0, 0.0, 0.0}});
-  for (const double from : {0.0, 0.5, 1.0}) {
-    CAPTURE(from);
-    Problem problem;
-    problem.endpoints = {2.0, 0.0};
-    problem.body.friction = Friction::from_coefficient(0.3);
-    problem.body.entry_speed = 2.0;
-    problem.limits.speed.lowest = 0.05;
-    problem.limits.lowest_speed_from = from;
-    problem.limits.exit_speed.lowest = 1.0;
-    const std::vector<LimitCheck> checks = check_limits(problem, level);
-    // v^2/(2 mu g)
-    const double stand = 4.0 / (2.0 * 0.3 * problem.gravity);
-    const LimitCheck& speed = check_of(checks, {LimitId::speed, Bound::lowest});
-    CHECK(speed.reached == 0.0);
-    CHECK(speed.violation == Approx(0.05));
-    CHECK(speed.where == Approx(stand));
-    const LimitCheck& exit = check_of(checks, {LimitId::exit_speed, Bound::lowest});
-    CHECK(exit.reached == 0.0);
-    CHECK(exit.violation == Approx(1.0));
-  }
-}
-
 }  // namespace between_samples_test

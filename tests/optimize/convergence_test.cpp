@@ -29,25 +29,6 @@ double excess(const Problem& problem, double exact, int pieces) {
 
 }  // namespace
 
-// Where a straight ends in a kink, each mesh has it anew; and where a body all but stands still at the end, speed is told by
-// energies that are next to nothing.
-TEST_CASE("a kink behind a straight and a body that just arrives need no long search") {
-  for (const double lead_in : {0.8, 1.0}) {
-    Problem problem;
-    problem.endpoints = {8.6, 1.7};
-    problem.body.friction = Friction::from_coefficient(0.16);
-    problem.low_friction = Friction::from_coefficient(0.136);
-    problem.high_friction = Friction::from_coefficient(0.176);
-    problem.limits.lead_in = lead_in;
-    const OptimizeReport report = optimize(problem).report;
-    CAPTURE(lead_in, report.brief());
-    CHECK(report.status == OptimizeStatus::optimal);
-    CHECK(report.first_order_residual < 1e-8);
-    // It was some thousands, the longer straight without an end.
-    CHECK(report.evaluations < 500);
-  }
-}
-
 TEST_CASE("the excess over the exact optimum falls faster than with the fourth power of the pieces") {
   const std::vector<int> pieces = {8, 12, 16, 24, 32, 48};
   const bool table = std::getenv("GLISSADE_TABLE") != nullptr;

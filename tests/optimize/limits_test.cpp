@@ -1,5 +1,6 @@
 // Each kind of limit: what the optimum is where it can be derived by hand, what the referee says of the rest.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/optimize/optimize.hpp"
 
@@ -8,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 namespace limits_test {
 
@@ -130,6 +133,55 @@ TEST_CASE("a lowest speed from a place on holds there, and the faster it is, the
       }
       before = {lowest, report.exit_speed, active->price};
     }
+  }
+}
+
+// Where a straight ends in a kink, each mesh has it anew; and where a body all but stands still at the end, speed is told by
+// energies that are next to nothing.
+TEST_CASE("a kink behind a straight and a body that just arrives need no long search") {
+  for (const double lead_in : {0.8, 1.0}) {
+    Problem problem;
+    problem.endpoints = {8.6, 1.7};
+    problem.body.friction = Friction::from_coefficient(0.16);
+    problem.low_friction = Friction::from_coefficient(0.136);
+    problem.high_friction = Friction::from_coefficient(0.176);
+    problem.limits.lead_in = lead_in;
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(lead_in, report.brief());
+    CHECK(report.status == OptimizeStatus::optimal);
+    CHECK(report.first_order_residual < 1e-8);
+    // It was some thousands, the longer straight without an end.
+    CHECK(report.evaluations < 500);
+  }
+}
+
+TEST_CASE("referee: where a body comes to a stand no lowest speed is kept, behind it neither", "[limits]") {
+  const auto level = std::make_shared<const ClothoidSpline>(Angle::from_degrees(0.0),
+                                                            std::vector<ClothoidSegment>{{2.0, 0.0, 0.0}});
+  for (const double from : {0.0, 0.5, 1.0}) {
+    CAPTURE(from);
+    Problem problem;
+    problem.endpoints = {2.0, 0.0};
+    problem.body.friction = Friction::from_coefficient(0.3);
+    problem.body.entry_speed = 2.0;
+    problem.limits.speed.lowest = 0.05;
+    problem.limits.lowest_speed_from = from;
+    problem.limits.exit_speed.lowest = 1.0;
+    const std::vector<LimitCheck> checks = check_limits(problem, level);
+    const auto of = [&](LimitId id) -> const LimitCheck& {
+      const LimitName name{id, Bound::lowest};
+      return *std::find_if(checks.begin(), checks.end(),
+                           [&](const LimitCheck& check) { return check.limit == name; });
+    };
+    // v^2/(2 mu g)
+    const double stand = 4.0 / (2.0 * 0.3 * problem.gravity);
+    const LimitCheck& speed = of(LimitId::speed);
+    CHECK(speed.reached == 0.0);
+    CHECK(speed.violation == Approx(0.05));
+    CHECK(speed.where == Approx(stand));
+    const LimitCheck& exit = of(LimitId::exit_speed);
+    CHECK(exit.reached == 0.0);
+    CHECK(exit.violation == Approx(1.0));
   }
 }
 

@@ -6,8 +6,8 @@
 
 namespace glissade::optimizer {
 
-/// Whether spans of a problem's track can have lengths of their own: no friction changes and no limit begins at a given arc length, and no law asks
-/// how far a ride has come.
+/// Whether spans of a problem's track can have lengths of their own: no friction changes and no limit begins at a given arc
+/// length, and no law asks how far a ride has come.
 [[nodiscard]] bool can_free_spans(const ScaledProblem& problem);
 
 /// A better optimum whose jumps and bends of the curvature may lie far from where those of the one known do.

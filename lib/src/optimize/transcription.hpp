@@ -62,8 +62,8 @@ struct Mesh {
   /// Arc lengths at which the track rubs differently from there on, ascending [chords], ...
   Vector changes;
   std::vector<ChangeKnots> change_knots;  ///< ... and those of them that lie in the core
-  double held_from =
-      0.0;  ///< arc length from which on a limit holds, itself held exactly; 0: from the start [chords]
+  /// Arc length from which on a limit holds, itself held exactly; 0: from the start [chords].
+  double held_from = 0.0;
   double lead_in = 0.0;      ///< straight before the core [chords]
   double lead_out = 0.0;     ///< straight after it
   double core_length = 1.0;  ///< of the guess: places the nodes of the substitution, and the changes
@@ -388,9 +388,9 @@ class Transcription {
   /// What its panels have in common.
   [[nodiscard]] Panel panel_of(const Stretch& stretch) const;
   void add_station(double at, const Stretch& stretch, std::size_t zone);
-  /// Changes of friction before a place of the mesh.
-  /// Of stations laid already.
+  /// held_from(), of stations laid already.
   [[nodiscard]] std::optional<std::size_t> station_held_from() const;
+  /// Changes of friction before a place of the mesh.
   [[nodiscard]] std::size_t zone_at(double arc_length) const;
   /// Adds what a sliding point's exponent 2 mu zeta - 2 k s of one friction does at a station.
   /// @param by_v  dL/dv there

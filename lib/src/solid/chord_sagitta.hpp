@@ -14,8 +14,8 @@ namespace glissade::solid {
 ///
 /// Not halfway: beside a start of unbounded curvature the worst place lies at a quarter of the step and less.
 /// It is looked for at samples that all levels share, and then between the best one's neighbours.
-/// Accuracy: 1e-4 relative on a stretch without an inflection, however short it is against the arc lengths of its ends; where one lies within it, the larger side is
-///   found.
+/// Accuracy: 1e-4 relative on a stretch without an inflection, however short it is against the arc lengths of its ends;
+///   where one lies within it, the larger side is found.
 class ChordSagitta {
  public:
   /// @param from,to  arc lengths on the centerline, which must outlive this; from < to
