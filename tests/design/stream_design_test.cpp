@@ -115,6 +115,19 @@ TEST_CASE("a stream that would enter over its wall is refused, with the entry sp
              Contains("enters 273.9 mm deep, over its wall of 250 mm") && Contains("at least 0.2849 m/s"));
 }
 
+TEST_CASE(
+    "a burden depth below that at which the stream enters is refused, with both to digits that differ") {
+  // 35.6 litres a second in 400 mm: 17.806 mm deep at 2 m/s.
+  const auto at_most = [](const std::string& depth) {
+    return problems(kWheat, "entry_speed: 2 m/s\nlimits: {highest_burden_depth: " + depth + "}");
+  };
+  CHECK(at_most("17.81 mm").empty());
+  CHECK_THAT(at_most("17.8 mm"),
+             Contains("highest_burden_depth: 17.8 mm, but at 2 m/s the stream enters 17.81 mm deep") &&
+                 Contains("at least 2.201 m/s"));
+  CHECK_THAT(at_most("17.806 mm"), Contains("17.806 mm, but at 2 m/s the stream enters 17.8063 mm deep"));
+}
+
 TEST_CASE("a liner by wear needs a stream, and a life a wear coefficient of the same plate") {
   const auto lined = [](const std::string& stream, const std::string& liner) {
     return problems_of(sound_design_with(

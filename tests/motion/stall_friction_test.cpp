@@ -97,6 +97,10 @@ TEST_CASE("stall friction: just below it no body stalls, just above it every one
     CHECK_FALSE(stalls(angle->radians() - kStallFrictionAccuracy));
     CHECK(stalls(angle->radians() + 2.0 * kStallFrictionAccuracy));
     CHECK_FALSE(stalls(0.5 * angle->radians()));
+    for (const double factor : {0.5, 0.99, 1.01}) {
+      const Angle other = Angle::from_radians(factor * angle->radians());
+      CHECK(stalls_at(ridden, rider, other) == stalls(other.radians()));
+    }
   }
 }
 

@@ -4,8 +4,12 @@
 
 #include "support/catch.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace friction_range_test {
@@ -109,6 +113,35 @@ TEST_CASE("the JSON of rides agrees with the rides") {
           Approx(stall->degrees() - motion.body().friction.angle().degrees()));
   }
   CHECK(document["travel_time_s"] == document["rides"][1]["travel_time_s"]);
+}
+
+TEST_CASE("a body that next to no more friction stops is warned of, at the highest friction of a range") {
+  // A straight line carries a body from rest up to a friction angle of its own slope, atan(5/8).
+  const auto told = [](const std::string& friction, const std::string& rest) {
+    const Design design = parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 8 m, z: 0 m}}\n"
+        "body: {friction_angle: " +
+            friction + "}\n" + rest,
+        "d.yaml");
+    const std::vector<Issue> found = warnings(design, solve(design));
+    return found.empty() ? std::string() : found.front().what + " " + found.front().hint;
+  };
+  const double slope = std::atan(5.0 / 8.0) * 180.0 / std::numbers::pi;
+  const auto below = [&](double by) { return fmt::format("{:.6f} deg", slope - by); };
+  const std::string straight = "centerline: {kind: straight}\n";
+  CHECK_THAT(told(below(0.01), straight),
+             Contains("a friction angle that is higher by less than 0.02 deg stops the body on this track") &&
+                 Contains("a steeper track"));
+  CHECK(told(below(0.03), straight).empty());
+  const auto range = [&](double by) { return "{low: 9 deg, nominal: 11 deg, high: " + below(by) + "}"; };
+  CHECK_THAT(told(range(0.01), straight), Contains("stops the body"));
+  CHECK(told(range(0.03), straight).empty());
+  // Drag takes the less the slower a body is: the highest exit speed is that of one that creeps.
+  const std::string fast_exit =
+      "limits: {objective: exit_speed, smallest_radius: 0.5 m, highest_normal_load: 3 g";
+  const std::string dragged = "11 deg, drag: 0.1 1/m";
+  CHECK_THAT(told(dragged, fast_exit + "}\n"), Contains("stops the body") && Contains("lowest_slope_margin"));
+  CHECK(told(dragged, fast_exit + ", lowest_slope_margin: 1 deg}\n").empty());
 }
 
 }  // namespace friction_range_test

@@ -107,6 +107,36 @@ void check_its_body(const Design& design, Collected& findings) {
           "entry_speed: 2 m/s, the speed along the track at which it comes in, or a feed"});
 }
 
+/// How deep a stream comes in no track changes.
+void check_its_entry(const Design& design, const StreamChannel& channel, Collected& findings) {
+  const StreamDesign& stream = *design.stream;
+  const double speed = design.body.entry_speed;
+  if (!(speed > 0.0)) return;
+  const double depth = stream.mass_flow / (stream.bulk_density * channel.width.at(0.0) * speed);
+  const double deepest = std::min(channel.width.at(0.0), channel.wall_height);
+  const char* const why = "Its depth is flow / (density x width x speed).";
+  const std::string enters = "at " + quantity_text(speed, Dimension::speed) + " the stream enters ";
+  if (depth >= deepest) {
+    const bool wall = channel.wall_height < channel.width.at(0.0);
+    report(findings, {"body.entry_speed", "stream", "cross_section"},
+           {"",
+            "entry_speed: " + enters + length_text(depth) + " deep, " +
+                (wall ? "over its wall of " : "more than its width of ") + length_text(deepest),
+            why,
+            "an entry_speed of at least " + quantity_text(2.0 * speed * depth / deepest, Dimension::speed) +
+                ", which fills half of that, or a wider channel"});
+    return;
+  }
+  if (!design.limits || !design.limits->highest_burden_depth) return;
+  const double most = *design.limits->highest_burden_depth;
+  if (!(depth > most) || !(most > 0.0)) return;
+  const auto [asked, there] = texts_apart(most, depth, &length_text);
+  report(findings, {"limits.highest_burden_depth", "body.entry_speed", "stream"},
+         {"", "highest_burden_depth: " + asked + ", but " + enters + there + " deep", why,
+          "an entry_speed of at least " + quantity_text(1.1 * speed * depth / most, Dimension::speed) +
+              ", a wider channel, or a greater depth"});
+}
+
 void check_its_channel(const Design& design, Collected& findings) {
   const StreamDesign& stream = *design.stream;
   if (!design.cross_section) {
@@ -141,19 +171,7 @@ void check_its_channel(const Design& design, Collected& findings) {
               "a width of at least " + length_text(lump / kMostOfWidth) + ", or smaller lumps"});
     }
   }
-  const double speed = design.body.entry_speed;
-  const double depth = stream.mass_flow / (stream.bulk_density * channel->width.at(0.0) * speed);
-  const double deepest = std::min(channel->width.at(0.0), channel->wall_height);
-  if (!(speed > 0.0) || !(depth >= deepest)) return;
-  const bool wall = channel->wall_height < channel->width.at(0.0);
-  report(findings, {"body.entry_speed", "stream", "cross_section"},
-         {"",
-          "entry_speed: at " + quantity_text(speed, Dimension::speed) + " the stream enters " +
-              length_text(depth) + " deep, " + (wall ? "over its wall of " : "more than its width of ") +
-              length_text(deepest),
-          "Its depth is flow / (density x width x speed).",
-          "an entry_speed of at least " + quantity_text(2.0 * speed * depth / deepest, Dimension::speed) +
-              ", which fills half of that, or a wider channel"});
+  check_its_entry(design, *channel, findings);
 }
 
 }  // namespace

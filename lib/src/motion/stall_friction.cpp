@@ -23,17 +23,19 @@ Body with_friction(Body body, Angle angle) {
 
 }  // namespace
 
+bool stalls_at(const CenterlinePtr& centerline, const Body& body, Angle angle, double gravity) {
+  try {
+    const Motion motion(centerline, with_friction(body, angle), gravity);
+    // A stream that slows down chokes before it stands.
+    const bool chokes = motion.law_end() && motion.law_end()->what != "valley_radius_m";
+    return motion.stall().has_value() || chokes;
+  } catch (const ConvergenceError&) {
+    return false;  // free flight along a track at an absurd friction: it feels none
+  }
+}
+
 std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body, double gravity) {
-  const auto stalls = [&](Angle angle) {
-    try {
-      const Motion motion(centerline, with_friction(body, angle), gravity);
-      // A stream that slows down chokes before it stands.
-      const bool chokes = motion.law_end() && motion.law_end()->what != "valley_radius_m";
-      return motion.stall().has_value() || chokes;
-    } catch (const ConvergenceError&) {
-      return false;  // free flight along a track at an absurd friction: it feels none
-    }
-  };
+  const auto stalls = [&](Angle angle) { return stalls_at(centerline, body, angle, gravity); };
   if (stalls(Angle{})) return Angle{};
   // From the body's own friction, the one that people ask about, towards the steepest: at absurd frictions a ride
   // that touches the track without load (N = 0) cannot be told from one that leaves it.

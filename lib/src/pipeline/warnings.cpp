@@ -6,6 +6,7 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/design/materials.hpp"
 #include "glissade/design/stream_channel.hpp"
+#include "glissade/motion/stall_friction.hpp"
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/section/measures.hpp"
 
@@ -153,6 +154,24 @@ std::optional<Issue> kink(const Design& design, const Track& track) {
       searched ? "a smallest_radius or a highest_normal_load among the limits" : "a larger radius there"};
 }
 
+/// A body that creeps along the track, so that next to no more friction stops it.
+std::optional<Issue> all_but_stalls(const Design& design, const Track& track) {
+  constexpr Angle kMore = Angle::from_degrees(0.02);  // taste: a tenth of what friction angles are known to
+  constexpr Angle kSteepest = Angle::from_degrees(89.9);  // rounding: as stalls_at() has it
+  // Of a friction range the highest one, which comes last.
+  const Motion& slowest = *track.rides().back().motion;
+  if (!slowest.arrived()) return {};
+  const Angle friction = slowest.body().friction.angle();
+  if (friction + kMore > kSteepest) return {};
+  if (!stalls_at(track.centerline, slowest.body(), friction + kMore, slowest.gravity())) return {};
+  return Issue{
+      design.where("centerline"),
+      "a friction angle that is higher by less than " + angle_text(kMore) + " stops the body on this track",
+      "It goes on with next to no speed somewhere; no friction is known, or stays, that closely.",
+      track.search ? "limits: {lowest_slope_margin: 1 deg}, or a speed: {lowest: ..., lowest_from: ...}"
+                   : "a steeper track where the body is slowest"};
+}
+
 /// A belt that no stream from that height keeps up with.
 std::optional<Issue> belt_too_fast(const Design& design) {
   if (!design.discharge || !design.track.finish_given) return {};
@@ -175,6 +194,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
   add_places_beyond(design, track, found);
   if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
+  if (auto issue = all_but_stalls(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
   if (auto issue = missed_alone(design, track)) found.push_back(*std::move(issue));
   if (auto issue = radius_open(design, track)) found.push_back(*std::move(issue));

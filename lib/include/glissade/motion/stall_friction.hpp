@@ -23,4 +23,12 @@ inline constexpr double kStallFrictionAccuracy = 1e-6;
 [[nodiscard]] std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body,
                                                         double gravity = kDefaultGravity);
 
+/// Whether the same body of another friction angle stalls on the same track, or chokes it; changes of friction along the
+/// track are shifted as for stall_friction_angle().
+/// @param angle  [0, 89.9 deg]
+/// @return false, too, where it leaves the track
+/// @throws as Motion
+[[nodiscard]] bool stalls_at(const CenterlinePtr& centerline, const Body& body, Angle angle,
+                             double gravity = kDefaultGravity);
+
 }  // namespace glissade
