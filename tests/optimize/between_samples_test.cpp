@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -52,6 +53,46 @@ double steepest(const ClothoidSpline& track) {
 }
 
 }  // namespace
+
+TEST_CASE("referee: a load that bends sharply on a piece short for its track is found to all digits",
+          "[limits]") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int within = 0;
+  for (int i = 0; i < 40; ++i) {
+    CAPTURE(i);
+    // Few samples lie on the middle piece: it takes up a hundredth of the track. Down to it the speed stays as it is.
+    const Angle slope = Angle::from_degrees(random.between(25.0, 35.0));
+    const double curvature = random.between(0.1, 0.2);
+    const double length = random.between(4.0, 8.0);
+    const auto track = std::make_shared<const ClothoidSpline>(
+        slope, std::vector<ClothoidSegment>{{400.0, 0.0, 0.0},
+                                            {2.0, 0.0, -curvature},
+                                            {length, -curvature, curvature * random.between(0.8, 1.2)},
+                                            {2.0, curvature, 0.0},
+                                            {300.0, 0.0, 0.0}});
+    Problem problem;
+    problem.endpoints = track->endpoints();
+    problem.body.friction = Friction::from_angle(slope);
+    problem.body.entry_speed = random.between(4.0, 5.0);
+    problem.limits.lowest_normal_load = 0.1;
+    const Motion motion(track, problem.body, problem.gravity);
+    const std::vector<LimitCheck> checks = check_limits(problem, track);
+    double least = HUGE_VAL;
+    const double end = std::min(motion.distance(), 410.0);
+    constexpr int kSamples = 20000;
+    double where = 0.0;
+    for (int k = 0; k <= kSamples; ++k) {
+      const MotionState state = motion.at(std::min(end, 400.0 + (end - 400.0) * k / kSamples));
+      if (state.normal_load < least) where = state.arc_length;
+      least = std::min(least, state.normal_load);
+    }
+    if (where > 402.1 && where < 401.9 + length) ++within;
+    const LimitCheck& load = check_of(checks, {LimitId::lowest_normal_load, Bound::lowest});
+    CHECK(load.reached <= least + 1e-8);
+  }
+  CHECK(within > 5);
+}
 
 TEST_CASE("referee: slopes, loads and speeds that are greatest between samples are found", "[limits]") {
   testing::Random random = testing::seeded_random();

@@ -108,6 +108,15 @@ double kept_back(const OptimizeReport& report) {
   return cost;
 }
 
+/// Whether the referee finds the track at every bound that is told to be active, to a thousandth of its scale.
+bool lies_at_its_limits(const OptimizeReport& report) {
+  return std::all_of(report.active.begin(), report.active.end(), [&](const ActiveLimit& active) {
+    return std::all_of(report.checks.begin(), report.checks.end(), [&](const LimitCheck& check) {
+      return check.limit != active.limit || std::fabs(check.reached - check.value) <= 1e-3 * check.scale;
+    });
+  });
+}
+
 /// What became of a number of random problems.
 struct Tally {
   int solved = 0;
@@ -132,6 +141,7 @@ OptimizeReport hold(const Problem& problem, int neighbours, testing::Random& ran
   CHECK(verdict.travel_time == optimum.report.travel_time);
   if (optimum.report.status != OptimizeStatus::optimal) return optimum.report;
   ++tally.converged;
+  CHECK(lies_at_its_limits(optimum.report));
   const double least = objective_of(problem, verdict);
   const double kept = kept_back(optimum.report);
   CHECK(kept <= kKeptBack * std::fabs(least));
@@ -194,7 +204,7 @@ TEST_CASE(
   INFO("GLISSADE_SEED=" << random.seed());
   // Its own numbers: the problems are the same without that search.
   testing::Random steps(random.seed());
-  constexpr int kNeighbours = 12;
+  constexpr int kNeighbours = 16;
   Tally tally;
   const int problems = testing_problems::problem_count();
   const int searched = testing_problems::problems_of(20);

@@ -7,6 +7,9 @@
 #include "optimize/round_rows.hpp"
 #include "optimize/rows.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace glissade::optimizer {
 namespace {
 
@@ -16,13 +19,9 @@ Foot foot_of(const RowAt& at, Vec2 point) {
 
 /// Of a corner of the limit's obstacle, looked for once in each state.
 Foot corner_foot(const RowAt& at, std::size_t corner) {
-  std::vector<std::vector<std::optional<Foot>>>& feet = at.state.feet;
-  if (feet.empty()) feet.resize(at.problem.obstacles.size());
-  std::vector<std::optional<Foot>>& known = feet[at.limit.obstacle];
-  const std::vector<Vec2>& corners = at.problem.obstacles[at.limit.obstacle].corners;
-  if (known.empty()) known.resize(corners.size());
-  if (!known[corner]) known[corner] = foot_of(at, corners[corner]);
-  return *known[corner];
+  std::optional<Foot>& known = at.state.corner_foot(at.problem, at.limit.obstacle, corner);
+  if (!known) known = foot_of(at, at.problem.obstacles[at.limit.obstacle].corners[corner]);
+  return *known;
 }
 
 /// At a foot the distance changes with the track's position alone: to first order sliding along costs nothing.
@@ -104,22 +103,30 @@ class Distance final : public Measure {
     const Obstacle& obstacle = obstacle_of(at);
     Row row = at.row;
     const std::vector<Station>& stations = at.track.stations();
-    const auto add_stations = [&](auto&& concerned) {
+    if (obstacle.endless) {
       for (row.place = 0; row.place < stations.size(); ++row.place) {
-        if (!stations[row.place].watched) continue;
-        if (concerned(Vec2{at.state.shape.x[row.place], at.state.shape.y[row.place]})) rows.push_back(row);
+        if (stations[row.place].watched) rows.push_back(row);
       }
-    };
-    if (obstacle.endless) return add_stations([](Vec2) { return true; });
+      return;
+    }
+    std::vector<Vec2> points;
+    for (std::size_t i = 0; i < stations.size(); ++i)
+      points.push_back({at.state.shape.x[i], at.state.shape.y[i]});
+    const ConcernedPoints track(std::move(points));
+    std::vector<std::size_t> concerned;
     for (row.edge = 0; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
-      const Vec2 from = obstacle.corners[row.edge];
-      const Vec2 to = obstacle.corners[row.edge + 1];
-      add_stations([&](Vec2 station) { return concerns(station, from, to, obstacle.side); });
+      if (!obstacle.is_touchable(row.edge) || !obstacle.is_touchable(row.edge + 1)) continue;
+      track.of_edge(obstacle.corners[row.edge], obstacle.corners[row.edge + 1], obstacle.side, concerned);
+      for (const std::size_t i : concerned) {
+        row.place = i;
+        if (stations[i].watched) rows.push_back(row);
+      }
     }
     const auto stands = [&](std::size_t station) { return stations[station].watched; };
     row.foot = true;
     row.edge = 0;
     for (row.place = 0; row.place < obstacle.corners.size(); ++row.place) {
+      if (!obstacle.is_touchable(row.place)) continue;
       Row round = at.row;
       round.edge = row.place;
       const Vec2 corner = obstacle.corners[row.place];

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -204,9 +205,16 @@ EnvelopeRows::Distance EnvelopeRows::distance(const Obstacle& obstacle, Vec2 poi
   return distance;
 }
 
+Foot EnvelopeRows::exact_foot(const State& state, const Obstacle& obstacle, std::size_t index) const {
+  const auto among = static_cast<std::size_t>(&obstacle - problem_.obstacles.data());
+  std::optional<Foot>& known = state.corner_foot(problem_, among, index);
+  if (!known) known = looked_for(state, obstacle.corner(index));
+  return *known;
+}
+
 // Newton's method for the foot, along the normal of which the corner lies: near the centre of curvature, where
 // walls are, the steps of Transcription::foot() hardly get there.
-Foot EnvelopeRows::exact_foot(const State& state, Vec2 corner) const {
+Foot EnvelopeRows::looked_for(const State& state, Vec2 corner) const {
   constexpr int kSteps = 20;             // budget: halvings of a station's way, or Newton's steps
   constexpr double kSettled = 1e-15;     // rounding
   constexpr double kLeastSpread = 0.05;  // taste
@@ -231,7 +239,7 @@ EnvelopeRows::CornerView EnvelopeRows::view(const State& state, const Obstacle& 
                                             const Row& row) const {
   const Vec2 corner = obstacle.corner(row.place);
   CornerView view;
-  view.foot = exact_foot(state, corner);
+  view.foot = exact_foot(state, obstacle, row.place);
   view.beyond = view.foot.end;
   view.at_finish = view.foot.base != 0;
   view.side = obstacle.side;
@@ -286,24 +294,29 @@ void EnvelopeRows::add_edge_rows(const State& state, const Obstacle& obstacle, R
     }
     return;
   }
-  const auto against = [&](Vec2 from, Vec2 to, bool chained) {
-    const double side = chained ? obstacle.side : 1.0;
-    for (row.place = 1; row.place < last; ++row.place) {
-      if (!chained) row.level = nearer_level(row.place, forbidden(obstacle, row.edge));
-      const Vec2 point =
-          point_of(state.shape, row.place) + height(row.level) * normal_of(state.shape, row.place);
-      if (!concerns(point, from, to, side) || !stands(state, row.place, row.level)) continue;
-      // What lies behind another side lies behind the chain, or beside the area.
-      if (!chained && dot(from - point, forbidden(obstacle, row.edge)) < 0.0) continue;
-      rows.push_back(row);
-    }
-  };
   row.level = level_towards(obstacle.side);
+  std::vector<Vec2> points;
+  for (std::size_t i = 1; i < last; ++i)
+    points.push_back(point_of(state.shape, i) + height(row.level) * normal_of(state.shape, i));
+  const ConcernedPoints level(std::move(points));
+  std::vector<std::size_t> concerned;
   for (; row.edge + 1 < obstacle.corners.size(); ++row.edge) {
-    against(obstacle.corners[row.edge], obstacle.corners[row.edge + 1], true);
+    if (!obstacle.is_touchable(row.edge) || !obstacle.is_touchable(row.edge + 1)) continue;
+    level.of_edge(obstacle.corners[row.edge], obstacle.corners[row.edge + 1], obstacle.side, concerned);
+    for (const std::size_t i : concerned) {
+      row.place = i + 1;
+      if (stands(state, row.place, row.level)) rows.push_back(row);
+    }
   }
   for (const auto& [from, to] : obstacle.other_sides) {
-    against(from, to, false);
+    for (row.place = 1; row.place < last; ++row.place) {
+      row.level = nearer_level(row.place, forbidden(obstacle, row.edge));
+      const Vec2 point =
+          point_of(state.shape, row.place) + height(row.level) * normal_of(state.shape, row.place);
+      if (!concerns(point, from, to, 1.0) || !stands(state, row.place, row.level)) continue;
+      // What lies behind another side lies behind the chain, or beside the area.
+      if (dot(from - point, forbidden(obstacle, row.edge)) >= 0.0) rows.push_back(row);
+    }
     ++row.edge;
   }
 }
@@ -317,6 +330,7 @@ void EnvelopeRows::add_corner_rows(const State& state, const Obstacle& obstacle,
   Row foot = row;
   foot.foot = true;
   for (foot.place = 0; foot.place < obstacle.corners.size() + obstacle.other_corners.size(); ++foot.place) {
+    if (!obstacle.is_touchable(foot.place)) continue;
     const CornerView seen = view(state, obstacle, foot);
     if (seen.beyond && !seen.between) continue;
     round.edge = foot.place;

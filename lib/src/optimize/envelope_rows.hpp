@@ -102,7 +102,9 @@ class EnvelopeRows {
   void add_corner_gradient(const State& state, const Face& face, const FaceCorner& corner, double height,
                            Vec2 direction, double* out) const;
   [[nodiscard]] static Distance distance(const Obstacle& obstacle, Vec2 point);
-  [[nodiscard]] Foot exact_foot(const State& state, Vec2 corner) const;
+  /// Of an obstacle's corner, looked for once in each state.
+  [[nodiscard]] Foot exact_foot(const State& state, const Obstacle& obstacle, std::size_t index) const;
+  [[nodiscard]] Foot looked_for(const State& state, Vec2 corner) const;
   [[nodiscard]] CornerView view(const State& state, const Obstacle& obstacle, const Row& row) const;
   [[nodiscard]] static Vec2 forbidden(const Obstacle& obstacle, std::size_t edge);
   [[nodiscard]] static Vec2 on_edge(const Obstacle& obstacle, std::size_t edge);

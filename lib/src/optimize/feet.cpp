@@ -4,6 +4,9 @@
 
 #include "optimize/rows.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace glissade::optimizer {
 
 double corner_distance(const Foot& foot, Vec2 corner, double side) {
@@ -32,6 +35,36 @@ bool concerns(Vec2 point, Vec2 from, Vec2 to, double side) {
   if (side * cross(along, rest) > 0.0) return point.x >= from.x && point.x <= to.x;
   const double share = dot(rest, along) / dot(along, along);
   return share >= 0.0 && share <= 1.0;
+}
+
+ConcernedPoints::ConcernedPoints(std::vector<Vec2> points) : points_(std::move(points)) {
+  constexpr std::size_t kBlock = 16;     // taste: no result depends on it
+  constexpr double kWider = 1.0 + 1e-6;  // rounding
+  for (std::size_t first = 0; first < points_.size(); first += kBlock) {
+    Block block{first, std::min(first + kBlock, points_.size()), {}, 0.0};
+    block.centre = 0.5 * (points_[first] + points_[block.end - 1]);
+    for (std::size_t i = first; i < block.end; ++i)
+      block.radius = std::max(block.radius, kWider * norm(points_[i] - block.centre));
+    blocks_.push_back(block);
+  }
+}
+
+void ConcernedPoints::of_edge(Vec2 from, Vec2 to, double side, std::vector<std::size_t>& found) const {
+  constexpr double kWider = 1e-9;  // rounding: of lengths in chords
+  found.clear();
+  const Vec2 along = to - from;
+  const double length = norm(along);
+  for (const Block& block : blocks_) {
+    // Neither between the runs of its ends nor beside it.
+    const double reach = block.radius + kWider;
+    const double beside = dot(block.centre - from, along);
+    const bool is_beside = beside >= -reach * length && beside <= (length + reach) * length;
+    const bool is_over = block.centre.x >= from.x - reach && block.centre.x <= to.x + reach;
+    if (!is_beside && !is_over) continue;
+    for (std::size_t i = block.first; i < block.end; ++i) {
+      if (concerns(points_[i], from, to, side)) found.push_back(i);
+    }
+  }
 }
 
 double curvature_at(const Transcription& track, const Vector& z, const Foot& foot) {

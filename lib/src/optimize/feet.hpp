@@ -5,6 +5,9 @@
 #include "optimize/dense.hpp"
 #include "optimize/transcription.hpp"
 
+#include <cstddef>
+#include <vector>
+
 namespace glissade::optimizer {
 
 struct State;
@@ -25,6 +28,28 @@ void add_foot_weights(const Foot& foot, double factor, StationWeights& weights);
 /// is as far from it as from the line through it where it lies beside the edge; one behind that line lies within
 /// only over the edge's own runs: elsewhere, in a gully or beyond a cliff, other edges stand before this one.
 [[nodiscard]] bool concerns(Vec2 point, Vec2 from, Vec2 to, double side);
+
+/// Points in their order along a track, asked for edge after edge which of them it concerns.
+class ConcernedPoints {
+ public:
+  explicit ConcernedPoints(std::vector<Vec2> points);
+
+  [[nodiscard]] Vec2 operator[](std::size_t index) const { return points_[index]; }
+  /// Every one that concerns() has for an edge, in their order.
+  /// @param found  emptied first
+  void of_edge(Vec2 from, Vec2 to, double side, std::vector<std::size_t>& found) const;
+
+ private:
+  /// Some points that follow each other lie within a circle.
+  struct Block {
+    std::size_t first = 0;
+    std::size_t end = 0;
+    Vec2 centre;
+    double radius = 0.0;
+  };
+  std::vector<Vec2> points_;
+  std::vector<Block> blocks_;
+};
 
 /// @return curvature at a foot
 [[nodiscard]] double curvature_at(const Transcription& track, const Vector& z, const Foot& foot);

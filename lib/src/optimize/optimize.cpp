@@ -363,6 +363,18 @@ std::optional<double> left_to_win(const Candidate& best, const PricedLimits& pri
          best.sharper_crest_wins;
 }
 
+/// Limits that the track keeps well clear of cost nothing: what a finer mesh would have at them is no part of it.
+void leave_out_untouched(const std::vector<LimitCheck>& checks, std::vector<ActiveLimit>& active) {
+  constexpr double kClear =
+      1e-3;  // taste: in scales; loads that are held tighter than asked for stay a hundredth of it off
+  std::erase_if(active, [&](const ActiveLimit& limit) {
+    const auto check = std::find_if(checks.begin(), checks.end(),
+                                    [&](const LimitCheck& known) { return known.limit == limit.limit; });
+    return check != checks.end() && check->violation == 0.0 && limit.limit.bound != Bound::exactly &&
+           std::fabs(check->reached - check->value) > kClear * check->scale;
+  });
+}
+
 /// Tells of the best track that keeps every limit.
 void tell_track(Course& course, const OptimizeOptions& options, SearchControl& control,
                 OptimizeReport& report) {
@@ -381,6 +393,7 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   report.travel_time = best.judgement.travel_time;
   report.exit_speed = best.judgement.exit_speed;
   report.checks = best.judgement.checks;
+  leave_out_untouched(report.checks, report.active);
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = left_to_win(best, priced, onto_finest);
 }

@@ -38,6 +38,15 @@ struct State {
   EnvelopeRows::Zones zones;  ///< where the end planes may cut an envelope
   /// Of the corners of each obstacle, as they are asked for: value, gradient and curvature of a row all need them.
   mutable std::vector<std::vector<std::optional<Foot>>> feet;
+  /// @return the place in `feet` of one of an obstacle's corners
+  [[nodiscard]] std::optional<Foot>& corner_foot(const ScaledProblem& problem, std::size_t obstacle,
+                                                 std::size_t corner) const {
+    if (feet.empty()) feet.resize(problem.obstacles.size());
+    std::vector<std::optional<Foot>>& known = feet[obstacle];
+    const Obstacle& of = problem.obstacles[obstacle];
+    if (known.empty()) known.resize(of.corners.size() + of.other_corners.size());
+    return known[corner];
+  }
 
   /// From the start to the finish, whichever of them the shape's positions count from.
   [[nodiscard]] double run() const { return shape.x.back() - shape.x.front(); }

@@ -9,11 +9,13 @@
 
 #include "optimize/change_knots.hpp"
 #include "optimize/feet.hpp"
+#include "optimize/touchable_line.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace glissade::optimizer {
 namespace {
@@ -289,7 +291,26 @@ std::vector<Vec2> chain(const std::vector<Vec2>& outline, bool upper) {
   return result;
 }
 
-void add_obstacles(const Limits& limits, const Passages& passages, LimitList& list) {
+/// A line's corners; of many without those that no track touches which keeps the limits on radii.
+TouchableLine worth_holding(const Problem& problem, const Profile& profile, double side) {
+  constexpr std::size_t kFew = 64;         // budget: so many cost next to nothing
+  constexpr double kSharper = 1.0 - 1e-3;  // taste: what rounding and tolerances may take of a radius
+  constexpr double kStraight = 1e3;        // runs; taste: the radius of what has no bend to that side
+  const Limits& limits = problem.limits;
+  const Envelope& envelope = limits.envelope;
+  const double run = std::fabs(problem.endpoints.run);
+  std::optional<double> radius = side > 0.0 ? limits.smallest_valley_radius : limits.smallest_crest_radius;
+  if (side < 0.0 && limits.concave) radius = kStraight * run;
+  const double reach = profile.clearance + envelope.below + envelope.top();
+  const bool applies = profile.line.size() > kFew && radius && problem.finish.kind == FinishKind::point;
+  // Normals that reach beyond a centre of curvature lead to places that no bend of the track tells.
+  if (!applies || !(*radius > reach)) return {profile.line, {}};
+  const double start = problem.places_from == PlacesFrom::start ? 0.0 : -run;
+  return touchable(profile.line, {side, kSharper * *radius, start + reach, start + run - reach});
+}
+
+void add_obstacles(const Problem& problem, const Passages& passages, LimitList& list) {
+  const Limits& limits = problem.limits;
   for (std::size_t i = 0; i < limits.half_planes.size(); ++i) {
     const HalfPlane& plane = limits.half_planes[i];
     Obstacle obstacle;
@@ -306,17 +327,18 @@ void add_obstacles(const Limits& limits, const Passages& passages, LimitList& li
     obstacle.outline = limits.keep_outs[i].outline;
     list.add_obstacle({LimitId::keep_outs, Bound::lowest, i}, obstacle, limits.keep_outs[i].clearance);
   }
-  for (std::size_t i = 0; i < limits.stay_above.size(); ++i) {
+  const auto add_line = [&](LimitId id, std::size_t index, const Profile& profile, double side) {
+    TouchableLine line = worth_holding(problem, profile, side);
     Obstacle obstacle;
-    obstacle.corners = limits.stay_above[i].line;
-    list.add_obstacle({LimitId::stay_above, Bound::lowest, i}, obstacle, limits.stay_above[i].clearance);
-  }
-  for (std::size_t i = 0; i < limits.stay_below.size(); ++i) {
-    Obstacle obstacle;
-    obstacle.side = -1.0;
-    obstacle.corners = limits.stay_below[i].line;
-    list.add_obstacle({LimitId::stay_below, Bound::lowest, i}, obstacle, limits.stay_below[i].clearance);
-  }
+    obstacle.side = side;
+    obstacle.corners = std::move(line.corners);
+    obstacle.out_of_reach = std::move(line.out_of_reach);
+    list.add_obstacle({id, Bound::lowest, index}, std::move(obstacle), profile.clearance);
+  };
+  for (std::size_t i = 0; i < limits.stay_above.size(); ++i)
+    add_line(LimitId::stay_above, i, limits.stay_above[i], 1.0);
+  for (std::size_t i = 0; i < limits.stay_below.size(); ++i)
+    add_line(LimitId::stay_below, i, limits.stay_below[i], -1.0);
 }
 
 Ride scaled_ride(const Body& body, double friction, const ScaledProblem& units) {
@@ -354,7 +376,7 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   const Limits& limits = problem.limits;
   LimitList list(problem, out);
   list.add_numbers();
-  add_obstacles(limits, passages, list);
+  add_obstacles(problem, passages, list);
   for (std::size_t i = 0; i < limits.waypoints.size(); ++i) list.add_waypoint(i);
   // Beyond the vertical a track would run backwards; the fastest one of all starts exactly vertical.
   if (!limits.slope_angle.highest) {

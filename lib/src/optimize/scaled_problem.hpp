@@ -47,7 +47,12 @@ struct Obstacle {
   /// points down, and the corners that are not.
   std::vector<std::pair<Vec2, Vec2>> other_sides;
   std::vector<Vec2> other_corners;
+  /// Of chains: corners that no track touches which keeps the limits; none: every corner may be.
+  std::vector<bool> out_of_reach;
 
+  [[nodiscard]] bool is_touchable(std::size_t corner) const {
+    return corner >= out_of_reach.size() || !out_of_reach[corner];
+  }
   /// @return a corner of the chain, or one of the others after them
   [[nodiscard]] Vec2 corner(std::size_t index) const {
     return index < corners.size() ? corners[index] : other_corners[index - corners.size()];

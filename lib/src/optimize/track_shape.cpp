@@ -187,11 +187,28 @@ Foot Transcription::foot(const Vector& z, const Shape& shape, double target_x, d
     } else {
       ahead += (1.0 - kRounding) * (distance - least);
     }
-    do {
-      ++i;
-    } while (i < stations_.size() && arc_length(z, stations_[i]) < ahead);
+    i = first_behind(z, i + 1, ahead);
   }
   return foot(z, shape, target_x, target_y, nearest);
+}
+
+std::size_t Transcription::first_behind(const Vector& z, std::size_t from, double arc) const {
+  const auto lies_before = [&](std::size_t i) {
+    return i < stations_.size() && arc_length(z, stations_[i]) < arc;
+  };
+  if (!lies_before(from)) return from;
+  // Mostly it is near: twice as far each time, then back by halves.
+  std::size_t before = from;
+  std::size_t step = 1;
+  while (lies_before(before + step)) {
+    before += step;
+    step *= 2;
+  }
+  while (step > 1) {
+    step /= 2;
+    if (lies_before(before + step)) before += step;
+  }
+  return before + 1;
 }
 
 std::size_t Transcription::last_at_place(std::size_t station, bool forward) const {

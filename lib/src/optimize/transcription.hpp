@@ -405,6 +405,8 @@ class Transcription {
   void add_spans();
   void add_sections();
   [[nodiscard]] std::size_t start_station(std::size_t panel) const;
+  /// @return from one station on the first that does not lie before an arc length, or as many as there are
+  [[nodiscard]] std::size_t first_behind(const Vector& z, std::size_t from, double arc) const;
   /// Of the stations at the place of one, at a border, that beside which the track goes on.
   [[nodiscard]] std::size_t last_at_place(std::size_t station, bool forward) const;
 

@@ -8,6 +8,7 @@
 #include "referee/watches.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace glissade::referee {
@@ -87,33 +88,47 @@ std::vector<CenterlinePoint> points_along(const Centerline& track, const Problem
   return points;
 }
 
+/// What a ride shows at one place.
+struct Sight {
+  double s = 0.0;
+  Watches::Measures measures;
+};
+
+/// Adds the places at which something that limits ask for is greatest or least. Where samples are far apart for its bends a
+/// parabola through three of them tells the place roughly; one through those next to that place tells it better.
+/// @param sights  in order
+void add_extreme_sights(std::vector<Sight>& sights, const std::function<Sight(double)>& sight) {
+  constexpr int kRounds = 6;  // budget: each has some twice as many digits
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> stations;
+    for (const Sight& seen : sights) stations.push_back(seen.s);
+    std::vector<double> places;
+    std::vector<double> values(stations.size());
+    for (std::size_t k = 0; k < Watches::Measures{}.size(); ++k) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = sights[i].measures[k];
+      add_extremes(stations, values, places);
+    }
+    if (places.empty()) return;
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    for (const double s : places) sights.push_back(sight(s));
+    std::inplace_merge(sights.begin(), sights.begin() + static_cast<std::ptrdiff_t>(stations.size()),
+                       sights.end(), [](const Sight& a, const Sight& b) { return a.s < b.s; });
+  }
+}
+
 /// Shows a ride at the points that it reaches, and wherever between them something that limits ask for is greatest or least.
 void show(const Motion& motion, const std::vector<CenterlinePoint>& points, Watches& watches) {
-  struct Sight {
-    double s = 0.0;
-    Watches::Measures measures;
-  };
-  const auto sight = [&](const CenterlinePoint& point) -> Sight {
+  const auto sight_at = [&](const CenterlinePoint& point) -> Sight {
     const MotionState state = motion.at(point.arc_length);
     return {point.arc_length, watches.measures(state, point)};
   };
   std::vector<Sight> sights;
-  std::vector<double> stations;
   for (const CenterlinePoint& point : points) {
     if (point.arc_length > motion.distance()) break;
-    sights.push_back(sight(point));
-    stations.push_back(point.arc_length);
+    sights.push_back(sight_at(point));
   }
-  std::vector<double> places;
-  std::vector<double> values(stations.size());
-  for (std::size_t k = 0; k < Watches::Measures{}.size(); ++k) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = sights[i].measures[k];
-    add_extremes(stations, values, places);
-  }
-  std::sort(places.begin(), places.end());
-  for (const double s : places) sights.push_back(sight(motion.centerline().at(s)));
-  std::inplace_merge(sights.begin(), sights.begin() + static_cast<std::ptrdiff_t>(stations.size()),
-                     sights.end(), [](const Sight& a, const Sight& b) { return a.s < b.s; });
+  add_extreme_sights(sights, [&](double s) { return sight_at(motion.centerline().at(s)); });
   for (const Sight& seen : sights) watches.at_measures(seen.measures, seen.s);
 }
 
