@@ -52,6 +52,43 @@ Problem shallow() {
 
 }  // namespace
 
+TEST_CASE(
+    "straight ends cost what re-solves lose, where friction changes on the way and jumps of curvature are "
+    "none, too") {
+  for (const bool rougher : {true, false}) {
+    for (const bool is_rate : {true, false}) {
+      for (const LimitId end : {LimitId::lead_in, LimitId::lead_out}) {
+        CAPTURE(rougher, is_rate, end == LimitId::lead_in);
+        Problem problem;
+        problem.endpoints = {14.0, 8.0};
+        problem.body.friction = Friction::from_coefficient(rougher ? 0.05 : 0.3);
+        problem.body.friction_changes = {{7.0, Friction::from_coefficient(rougher ? 0.3 : 0.05)}};
+        if (is_rate) {
+          problem.limits.highest_curvature_rate = 0.04;
+        } else {
+          problem.limits.smallest_valley_radius = 3.0;
+          problem.limits.smallest_crest_radius = 3.0;
+          problem.limits.exit_slope_angle = Range::fixed(20.0 * kRightAngle / 90.0);
+        }
+        const auto solved_with = [&](double length) {
+          (end == LimitId::lead_in ? problem.limits.lead_in : problem.limits.lead_out) = length;
+          return optimize(problem).report;
+        };
+        // Long enough that the last digits of a time are none of the difference, which is that of a curve all the same.
+        constexpr double kLength = 0.9;
+        constexpr double kStep = 0.3;
+        const double lost =
+            (solved_with(kLength + kStep).travel_time - solved_with(kLength - kStep).travel_time) /
+            (2.0 * kStep);
+        const OptimizeReport report = solved_with(kLength);
+        REQUIRE(report.status == OptimizeStatus::optimal);
+        CHECK(active_of(report, end == LimitId::lead_in ? "lead_in" : "lead_out").price ==
+              Approx(lost).epsilon(0.05));
+      }
+    }
+  }
+}
+
 TEST_CASE("two caps that bind at one place win nothing alone, and cost what re-solves lose") {
   Problem problem = shallow();
   const double cap = 0.995 * optimize(problem).report.exit_speed;

@@ -52,20 +52,14 @@ Mesh begun_later(Mesh mesh, double by) {
   return mesh;
 }
 
-/// The Lagrangian of an optimum's unknowns, rows and multipliers with other straight ends; none where its rows have no
-/// counterparts there.
-std::optional<double> lagrangian(const ScaledProblem& problem, const Found& found, double objective,
-                                 double later, double longer_end) {
-  ScaledProblem changed = problem;
-  changed.lead_in += later;
-  changed.lead_out += longer_end;
-  Mesh mesh = later == 0.0 ? found.track->mesh() : begun_later(found.track->mesh(), later);
-  mesh.lead_out += longer_end;
+/// The Lagrangian of unknowns on a mesh, with an optimum's rows and multipliers; none where these have no counterparts there.
+std::optional<double> lagrangian_at(const ScaledProblem& problem, const Found& found, double objective,
+                                    const Mesh& mesh, const Vector& z) {
   const Transcription track(mesh);
   if (track.stations().size() != found.track->stations().size()) return std::nullopt;
-  Rows rows(changed, track);
+  Rows rows(problem, track);
   rows.set_margins(found.rows->margins());
-  const State state = rows.state(found.z, false);
+  const State state = rows.state(z, false);
   double sum = objective * rows.objective(state);
   const Vector equality = rows.equality_values(state);
   for (std::size_t i = 0; i < equality.size(); ++i) sum += found.equality[i] * equality[i];
@@ -73,6 +67,41 @@ std::optional<double> lagrangian(const ScaledProblem& problem, const Found& foun
     if (found.inequality[i] > 0.0) sum += found.inequality[i] * rows.value(state, found.active[i]);
   }
   return sum;
+}
+
+/// That of an optimum's unknowns with other straight ends.
+std::optional<double> lagrangian(const ScaledProblem& problem, const Found& found, double objective,
+                                 double later, double longer_end) {
+  ScaledProblem changed = problem;
+  changed.lead_in += later;
+  changed.lead_out += longer_end;
+  Mesh mesh = later == 0.0 ? found.track->mesh() : begun_later(found.track->mesh(), later);
+  mesh.lead_out += longer_end;
+  return lagrangian_at(changed, found, objective, mesh, found.z);
+}
+
+/// That of the same track longer by so much behind the last change of friction, as bent as it is.
+std::optional<double> lagrangian_of_longer(const ScaledProblem& problem, const Found& found, double objective,
+                                           double by) {
+  Mesh mesh = found.track->mesh();
+  const double fixed = mesh.change_knots.back().sigma;
+  const double factor = 1.0 + by / mesh.core_length;
+  const auto moved = [&](double sigma) {
+    if (sigma <= fixed) return sigma / factor;
+    return 1.0 - (1.0 - sigma) / (1.0 - fixed) * (1.0 - fixed / factor);
+  };
+  for (Vector* const places : {&mesh.knots, &mesh.fine, &mesh.extra_breaks}) {
+    for (double& sigma : *places) sigma = moved(sigma);
+  }
+  for (ChangeKnots& change : mesh.change_knots)
+    change = {moved(change.from), moved(change.to), moved(change.sigma)};
+  mesh.core_length += by;
+  const Layout& layout = found.track->layout();
+  Vector z = found.z;
+  z[layout.length()] += by;
+  for (std::size_t i = 0; i < layout.knots; ++i) z[layout.turn(i)] *= factor;
+  for (double& turn : mesh.fine_turns) turn *= factor;
+  return lagrangian_at(problem, found, objective, mesh, z);
 }
 
 /// Whether the track is straight for longer than it has to be: then a straight end holds nothing back.
@@ -108,8 +137,16 @@ std::vector<LeadPrice> lead_prices(const ScaledProblem& problem, const Found& fo
     };
     const std::optional<double> slope = slope_of(at, step);
     if (!slope) continue;
+    // The Lagrangian's are tracks of any length on the mesh of one: with another the curvature of theirs jumps where friction
+    // changes for the last time. The track's own is that on its mesh; the straight end takes what it grows by from the core.
+    const std::optional<double> by_core =
+        found.track->has_fixed_pieces()
+            ? slope_of([&](double by) { return lagrangian_of_longer(problem, found, objective, by); }, kStep)
+            : 0.0;
+    if (!by_core) continue;
+    const double price = *slope - *by_core;
     const double size = objective > 0.0 ? std::fabs(found.objective) : 1.0;
-    if (*slope > kNothing * size) prices.push_back({{id, entry_of(id).bound}, length, *slope});
+    if (price > kNothing * size) prices.push_back({{id, entry_of(id).bound}, length, price});
   }
   return prices;
 }
