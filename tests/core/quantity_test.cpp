@@ -3,7 +3,10 @@
 #include "glissade/core/error.hpp"
 
 #include "support/catch.hpp"
+#include "support/random.hpp"
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -121,4 +124,37 @@ TEST_CASE("only finite decimal numbers are numbers") {
   CHECK_THAT(refusal("+-5 m", Dimension::length), Catch::Matchers::Contains("is not a number"));
   CHECK_THAT(refusal("5,4 m", Dimension::length),
              Catch::Matchers::Contains("a decimal point instead of the comma"));
+}
+
+TEST_CASE("every value of every dimension is written as a text that reads as exactly that value") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr int kLast = static_cast<int>(Dimension::power_per_area);
+  constexpr int kTries = 3000;
+  for (int which = 0; which <= kLast; ++which) {
+    const auto dimension = static_cast<Dimension>(which);
+    int wrong = 0;
+    std::string first;
+    for (int i = 0; i < kTries; ++i) {
+      double value = random.between(-1.0, 1.0) * std::pow(10.0, random.between(-9.0, 9.0));
+      // Such as people write, and such as they do not.
+      if (i % 3 == 1) value = std::floor(value * 1000.0) / 1000.0;
+      if (i % 3 == 2) value *= std::pow(10.0, random.between(-290.0, 290.0));
+      const std::string text = written_quantity(value, dimension);
+      if (parse_quantity(text, dimension, "it") == value) continue;
+      if (wrong++ == 0) first = text;
+    }
+    INFO("dimension " << which << ", first " << first);
+    CHECK(wrong == 0);
+    CHECK(parse_quantity(written_quantity(0.0, dimension), dimension, "it") == 0.0);
+    const double least = std::numeric_limits<double>::denorm_min();
+    CHECK(parse_quantity(written_quantity(least, dimension), dimension, "it") == least);
+  }
+}
+
+TEST_CASE("a mass flow that no number of t/h reads as is written in kg/s") {
+  CHECK(written_quantity(7.7, Dimension::mass_flow) == "7.7 kg/s");
+  CHECK(written_quantity(0.1, Dimension::mass_flow) == "0.1 kg/s");
+  CHECK(written_quantity(parse_quantity("400 t/h", Dimension::mass_flow, ""), Dimension::mass_flow) ==
+        "400 t/h");
 }

@@ -286,7 +286,9 @@ std::vector<UnitName> units_of(Dimension dimension) {
 }
 
 std::string written_quantity(double value, Dimension dimension) {
-  constexpr std::array<std::string_view, 5> kBesides = {"mm", "rad", "km/h", "g", "K"};
+  // Of every dimension one is the SI unit, whose 17 digits are the value: of no number of t/h, say, is 7.7 kg/s the
+  // nearest double.
+  constexpr std::array<std::string_view, 6> kBesides = {"mm", "rad", "km/h", "g", "K", "kg/s"};
   constexpr int kMostDigits = 17;
   for (int digits = 1; digits <= kMostDigits; ++digits) {
     for (const Unit& unit : kUnits) {
@@ -300,7 +302,8 @@ std::string written_quantity(double value, Dimension dimension) {
         return text;
     }
   }
-  return exact_text(value) + " " + std::string(unit_for_people(dimension));
+  if (dimension == Dimension::number) return exact_text(value);
+  throw InternalError({"", "no " + std::string(noun(dimension)) + " reads as " + exact_text(value), "", ""});
 }
 
 std::string_view unit_for_people(Dimension dimension) {
