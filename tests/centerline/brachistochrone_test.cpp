@@ -115,6 +115,23 @@ TEST_CASE("fastest track: a run of 0 is free fall along a vertical line") {
         "      Try: arc length instead of slope angle");
 }
 
+TEST_CASE("fastest track: all but vertical, all but level, immense and tiny, it ends at the finish") {
+  for (const double mu : {0.0, 0.3}) {
+    for (const Endpoints& way :
+         {Endpoints{1.0, 1e150}, Endpoints{1e-160, 1.0}, Endpoints{1e-20, 1.0}, Endpoints{1e199, 1e199},
+          Endpoints{3e-199, 2e-199}, Endpoints{1.0, 1e-150}}) {
+      if (mu * way.run >= way.drop) continue;
+      INFO("mu " << mu << ", run " << way.run << ", drop " << way.drop);
+      const CoulombBrachistochrone track(way, Friction::from_coefficient(mu));
+      const CenterlinePoint end = track.at(track.length());
+      CHECK(std::fabs(end.x - way.run) <= 1e-12 * track.length());
+      CHECK(std::fabs(end.drop - way.drop) <= 1e-12 * track.length());
+      CHECK(track.solution().travel_time <= track.solution().straight_time);
+      CHECK(track.solution().travel_time > 0.0);
+    }
+  }
+}
+
 TEST_CASE("fastest track: a finish on the left is the mirror image of one on the right") {
   const Friction friction = Friction::from_coefficient(0.2);
   const CoulombBrachistochrone left({-10.0, 5.0}, friction);
@@ -157,6 +174,9 @@ TEST_CASE("fastest track: every faulty argument is named with its value") {
         "      From rest, a body reaches only what lies below its start.\n"
         "      Try: a finish below the start; the drop counts positive downwards");
   CHECK_THAT(solve({1.0, 0.0}, 9.81), Catch::Matchers::StartsWith("drop: 0 m is not"));
+  CHECK_THAT(solve({1e308, 1e308}, 9.81), Catch::Matchers::Contains("lies too far from the start"));
+  CHECK_THAT(solve({3e-307, 2e-307}, 9.81), Catch::Matchers::Contains("lies too near to the start"));
+  CHECK_THROWS_AS(solve_coulomb_brachistochrone({1e-5, 1e5}, Friction::from_coefficient(1e5)), InputError);
   CHECK_THAT(solve({1.0, -2.0}, 9.81), Catch::Matchers::StartsWith("drop: -2 m is not"));
   CHECK_THAT(solve({1.0, 1.0}, 0.0), Catch::Matchers::StartsWith("gravity: 0 m/s^2 is not"));
   CHECK_THAT(solve({1.0, 1.0}, nan), Catch::Matchers::StartsWith("gravity: nan m/s^2 is not"));

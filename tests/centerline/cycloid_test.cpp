@@ -8,8 +8,10 @@
 #include "support/random.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -126,7 +128,27 @@ TEST_CASE("cycloid and no-curvature-load: a run of 0 is a vertical line") {
   CHECK(rough.travel_time_without_curvature_load(10.0) == 1.0);
 }
 
+TEST_CASE(
+    "cycloid and no-curvature-load: all but vertical, all but level, immense and tiny, they end at the "
+    "finish") {
+  for (const Endpoints& way :
+       {Endpoints{1.0, 1e150}, Endpoints{1e-160, 1.0}, Endpoints{1e199, 1e199}, Endpoints{3e-199, 2e-199},
+        Endpoints{1.0, 1e-150}, Endpoints{1586.829204992559, 4.4117094685325933e-14}}) {
+    INFO("run " << way.run << ", drop " << way.drop);
+    const std::array<CenterlinePtr, 2> tracks = {
+        std::make_shared<const Cycloid>(way), std::make_shared<const NoCurvatureLoadCurve>(way, Friction())};
+    for (const CenterlinePtr& track : tracks) {
+      const CenterlinePoint end = track->at(track->length());
+      CHECK(std::fabs(end.x - way.run) <= 1e-7 * track->length());
+      CHECK(std::fabs(end.drop - way.drop) <= 1e-13 * track->length());
+      CHECK(std::isfinite(track->at(0.5 * track->length()).x));
+    }
+  }
+}
+
 TEST_CASE("cycloid and no-curvature-load: faulty endpoints are named") {
+  CHECK_THROWS_AS(Cycloid({1e308, 1e308}), InputError);
+  CHECK_THROWS_AS(NoCurvatureLoadCurve({3e-310, 2e-310}, Friction()), InputError);
   CHECK_THROWS_WITH(Cycloid({1.0, -1.0}),
                     Catch::Matchers::Contains("drop: -1 m is not a finite length above 0"));
   CHECK_THROWS_WITH(Cycloid({std::numeric_limits<double>::infinity(), 1.0}),

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -381,6 +382,82 @@ TEST_CASE("fastest track with an entry speed: without friction a cycloid without
   }
 }
 
+TEST_CASE(
+    "fastest track with an entry speed: however little, the track ends at the finish and takes its time") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 60; ++i) {
+    const double mu = i % 4 == 0 ? 0.0 : random.between(0.0, 3.0);
+    const double run = random.between(0.2, 30.0);
+    const double drop = (mu + std::pow(10.0, random.between(-1.0, 1.0))) * run;
+    const Friction friction = Friction::from_coefficient(mu);
+    const double fall = std::sqrt(kDefaultGravity * std::hypot(run, drop));
+    const CoulombSolution rest = solve_coulomb_brachistochrone({run, drop}, friction);
+    for (const double share :
+         {1e-8, 1e-9, 2e-11, 0.9e-11, 1e-12, 1e-16, 1e-24, 1e-25, 1e-40, 1e-200, 1e-323}) {
+      const double speed = std::max(share * fall, std::numeric_limits<double>::denorm_min());
+      INFO("mu " << mu << ", run " << run << ", drop " << drop << ", entry speed " << speed);
+      const FlyingStartBrachistochrone track({run, drop}, friction, speed);
+      const FlyingStartSolution& found = track.solution();
+      CHECK((found.limit == FlyingStartLimit::rest) == (share < kRestShare));
+      CHECK(found.all_flight() == false);
+      // The fastest track is ahead by v0/(g cos delta), that from rest by v0/g.
+      const bool as_at_rest = found.limit == FlyingStartLimit::rest;
+      const double lead = speed / kDefaultGravity * (as_at_rest ? 1.0 : std::sqrt(1.0 + mu * mu));
+      CHECK(std::fabs(found.travel_time - (rest.travel_time - lead)) <=
+            1e-3 * lead + 3e-14 * rest.travel_time);
+      CHECK(found.exit_speed == Approx(rest.exit_speed).epsilon(1e-8));
+      CHECK(track.endpoints().run == Approx(run).epsilon(1e-8));
+      CHECK(track.endpoints().drop == Approx(drop).epsilon(1e-8));
+      if (share >= kRestShare) continue;
+      CHECK(found.travel_time <= rest.travel_time);
+      const Motion ride(std::make_shared<const FlyingStartBrachistochrone>(track),
+                        Body{friction, speed, 0.0});
+      REQUIRE(ride.arrived());
+      CHECK(ride.travel_time() == Approx(found.travel_time).epsilon(1e-12));
+      CHECK(ride.exit_speed() == Approx(found.exit_speed).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("fastest track with an entry speed: however much, it is at most a straight line's time away") {
+  for (const double mu : {0.0, 1e-6, 0.3, 3.0}) {
+    for (const double drop : {2.0, 0.0, -2.0}) {
+      for (const double speed : {1e3, 1e5, 1e8, 1e12, 1e30, 1e80, 1e154, 1e155, 1e300, 1.7e308}) {
+        INFO("mu " << mu << ", drop " << drop << ", entry speed " << speed);
+        const Friction friction = Friction::from_coefficient(mu);
+        const FlyingStartBrachistochrone track({3.0, drop}, friction, speed);
+        const double chord = std::hypot(3.0, drop);
+        CHECK(track.solution().travel_time == Approx(chord / speed).epsilon(1e-4).margin(0.0));
+        CHECK(track.solution().exit_speed == Approx(speed).epsilon(1e-4));
+        CHECK(track.length() == Approx(chord).epsilon(1e-7));
+        CHECK(track.endpoints().run == Approx(3.0).epsilon(2e-9));
+        CHECK(track.endpoints().drop == Approx(drop).margin(1e-8));
+      }
+    }
+  }
+  // Faster than free fall by sqrt(1e8), where the straight line begins: on either side of it the same.
+  const double turn = kStraightTurn * 3.0;
+  const double speed = std::sqrt(kDefaultGravity * 3.0 / kStraightTurn);
+  for (const double factor : {0.99, 1.01}) {
+    const FlyingStartBrachistochrone track({3.0, 2.0}, Friction(), factor * speed);
+    CHECK((track.solution().limit == FlyingStartLimit::straight) == (factor > 1.0));
+    CHECK(track.at(0.5 * track.length()).drop == Approx(1.0).margin(2.0 * turn));
+  }
+}
+
+TEST_CASE("fastest track with an entry speed: ways from 1e-200 m to 1e200 m, and others by name") {
+  const Friction friction = Friction::from_coefficient(0.3);
+  const CoulombSolution one = solve_coulomb_brachistochrone({3.0, 2.0}, friction);
+  for (const double scale : {1e-199, 1e-100, 1e100, 1e199}) {
+    const FlyingStartBrachistochrone track({3.0 * scale, 2.0 * scale}, friction, 1e-8 * std::sqrt(scale));
+    CHECK(track.endpoints().drop == Approx(2.0 * scale).epsilon(1e-8));
+    CHECK(track.solution().travel_time == Approx(one.travel_time * std::sqrt(scale)).epsilon(1e-8));
+  }
+  for (const double scale : {1e-310, 1e-201, 1e200, 5e307})
+    CHECK_THROWS_AS(solve_flying_start({3.0 * scale, 2.0 * scale}, friction, 1.0), InputError);
+}
+
 TEST_CASE("fastest track with an entry speed: at high speed all of it is flight") {
   const Endpoints endpoints{10.0, 2.0};
   const Friction friction = Friction::from_coefficient(0.3);
@@ -510,6 +587,28 @@ TEST_CASE("fastest track with an entry speed: what it cannot do is refused by na
   CHECK_THAT(message({10.0, 5.0}, 0.0), contains_text("entry_speed: 0 m/s is not a finite speed above 0"));
   CHECK_THAT(message({0.0, 0.0}, 5.0), contains_text("Start and finish are the same point"));
   CHECK_THAT(message({NAN, 1.0}, 5.0), contains_text("run: "));
+  // Next to the limit of what rest reaches there is no speed of 0 to exceed.
+  CHECK_THAT(message({10.0, 2.0}, 1e-30),
+             contains_text("entry_speed: 1e-30 m/s is not more than the 1e-30 m/s"));
+  CHECK_THAT(message({10.0, -1e-40}, 1e-30), contains_text("entry_speed: 1e-30 m/s is not more than the"));
+}
+
+TEST_CASE("reach theorem: what is out of its domain is refused") {
+  const Friction friction = Friction::from_coefficient(0.3);
+  for (const double gravity : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    CHECK_THROWS_AS(least_entry_speed({30.0, 2.0}, friction, gravity), InputError);
+    CHECK_THROWS_AS(least_drop(3.0, friction, 1.0, gravity), InputError);
+    CHECK_THROWS_AS(can_arrive({3.0, 2.0}, friction, 1.0, gravity), InputError);
+  }
+  for (const double speed : {-1.0, std::nan(""), HUGE_VAL}) {
+    CHECK_THROWS_AS(least_drop(3.0, friction, speed), InputError);
+    CHECK_THROWS_AS(can_arrive({3.0, 2.0}, friction, speed), InputError);
+  }
+  CHECK_THROWS_AS(least_entry_speed({std::nan(""), 2.0}, friction), InputError);
+  CHECK_THROWS_AS(least_drop(HUGE_VAL, friction, 1.0), InputError);
+  CHECK_THROWS_AS(can_arrive({3.0, std::nan("")}, friction, 1.0), InputError);
+  CHECK(least_drop(3.0, friction, 1e155) == -HUGE_VAL);
+  CHECK(can_arrive({3.0, -1e300}, friction, 1e155));
 }
 
 }  // namespace flying_start_test

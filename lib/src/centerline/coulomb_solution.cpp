@@ -174,9 +174,9 @@ CoulombSolution solve_coulomb_brachistochrone(const Endpoints& endpoints, Fricti
   require_gravity(gravity);
   const double mu = friction.coefficient();
   const double run = std::fabs(endpoints.run);
-  const double drop = drop_beyond_friction(endpoints, friction);
+  const double drop = std::max(drop_beyond_friction(endpoints, friction), kFlattest * run);
+  if (as_vertical(run, drop)) return free_fall(endpoints, gravity);
   const double ratio = drop / run;
-  if (!std::isfinite(ratio)) return free_fall(endpoints, gravity);
 
   CoulombSolution solution;
   const FinishPhase finish = solve_finish(mu, ratio);

@@ -47,15 +47,16 @@ double finish_half_tangent(double ratio) {
 
 Cycloid::Cycloid(const Endpoints& endpoints) {
   require_falling(endpoints);
-  const double ratio = std::fabs(endpoints.run) / endpoints.drop;
-  if (ratio < std::numeric_limits<double>::min()) {
+  const double run = std::fabs(endpoints.run);
+  const double drop = std::max(endpoints.drop, kFlattest * run);
+  if (as_vertical(run, drop)) {
     radius_ = std::numeric_limits<double>::infinity();
     length_ = endpoints.drop;
     return;
   }
-  const double half_tangent = finish_half_tangent(ratio);
+  const double half_tangent = finish_half_tangent(run / drop);
   const Phase half = phase_at(half_tangent);
-  radius_ = endpoints.drop / (2.0 * half.sine * half.sine);
+  radius_ = drop / (2.0 * half.sine * half.sine);
   length_ = 4.0 * radius_ * half.sine * half_tangent;  // 1 - cos a = sin a tan(a/2)
 }
 
@@ -67,7 +68,9 @@ CenterlinePoint Cycloid::at(double s) const {
   require_on_track(s);
   if (!std::isfinite(radius_)) return {s, 0.0, s, kRightAngle, 0.0};
   if (s == 0.0) return {0.0, 0.0, 0.0, kRightAngle, std::numeric_limits<double>::infinity()};
-  const Phase half = phase_at(std::sqrt(s / (8.0 * radius_ - s)));
+  // On a flat one rounding makes nothing, or less, of what is left to the whole arch.
+  const double rest = std::max(8.0 * radius_ - s, kFlattest * radius_);
+  const Phase half = phase_at(std::sqrt(s / rest));
   return {s, 2.0 * radius_ * half.sine * half.first_integral, 2.0 * radius_ * half.sine * half.sine,
           kRightAngle - half.angle, 1.0 / (4.0 * radius_ * half.sine)};
 }

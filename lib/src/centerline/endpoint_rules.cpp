@@ -1,10 +1,12 @@
 #include "endpoint_rules.hpp"
 
+#include "glissade/centerline/flying_start_brachistochrone.hpp"
 #include "glissade/centerline/reach.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,8 +14,29 @@
 namespace glissade::centerline {
 namespace {
 
+void append_faulty_way(const Endpoints& endpoints, std::vector<Issue>& issues) {
+  if (!issues.empty()) return;
+  const double longer = std::max(std::fabs(endpoints.run), std::fabs(endpoints.drop));
+  if (longer >= kShortestWay && longer <= kLongestWay) return;
+  issues.push_back(
+      {"",
+       "run and drop: the finish, " + exact_text(endpoints.run) + " m by " + exact_text(endpoints.drop) +
+           " m, lies too " + (longer < kShortestWay ? "near to" : "far from") + " the start",
+       "The longer of both is between " + rounded_text(kShortestWay, 3) + " m and " +
+           rounded_text(kLongestWay, 3) + " m, so that nothing of the track leaves the range of numbers.",
+       "run and drop in metres"});
+}
+
 constexpr int kUsualDigits = 4;
 constexpr int kAllDigits = 17;
+
+void append_faulty_friction(Friction friction, std::vector<Issue>& issues) {
+  if (friction.coefficient() <= kRoughest) return;
+  issues.push_back({"",
+                    "friction coefficient: " + exact_text(friction.coefficient()) + " is more than " +
+                        rounded_text(kRoughest, 3),
+                    "Beyond it the closed form loses its digits.", "0.05 to 1 for what slides"});
+}
 
 /// Digits that two numbers need to read differently: a message never says "4 deg exceeds 4 deg".
 int digits_to_tell_apart(double first, double second) {
@@ -43,7 +66,8 @@ Issue out_of_reach(const Endpoints& endpoints, Friction friction) {
 
 Issue out_of_reach_with_speed(const Endpoints& endpoints, Friction friction, double entry_speed,
                               double gravity) {
-  const double needed = least_entry_speed(endpoints, friction, gravity);
+  // What is out of reach by a rounding needs no less than it has.
+  const double needed = std::max(least_entry_speed(endpoints, friction, gravity), entry_speed);
   const double drop = least_drop(endpoints.run, friction, entry_speed, gravity);
   const int digits = digits_to_tell_apart(entry_speed, needed);
   return {"",
@@ -69,6 +93,7 @@ void require_falling(const Endpoints& endpoints) {
                       "From rest, a body reaches only what lies below its start.",
                       "a finish below the start; the drop counts positive downwards"});
   }
+  append_faulty_way(endpoints, issues);
   if (!issues.empty()) throw InputError(std::move(issues));
 }
 
@@ -89,9 +114,13 @@ void require_reachable_with_speed(const Endpoints& endpoints, Friction friction,
   if (endpoints == Endpoints{}) {
     issues.push_back({"", "run and drop: both are 0 m", "Start and finish are the same point.", ""});
   }
+  append_faulty_way(endpoints, issues);
+  append_faulty_friction(friction, issues);
   if (!issues.empty()) throw InputError(std::move(issues));
-  if (can_arrive(endpoints, friction, entry_speed, gravity)) return;
-  throw InfeasibleError(out_of_reach_with_speed(endpoints, friction, entry_speed, gravity));
+  const bool as_at_rest = as_from_rest(endpoints, entry_speed, gravity);
+  const bool arrives = can_arrive(endpoints, friction, entry_speed, gravity) &&
+                       !(as_at_rest && drop_beyond_friction(endpoints, friction) <= 0.0);
+  if (!arrives) throw InfeasibleError(out_of_reach_with_speed(endpoints, friction, entry_speed, gravity));
 }
 
 void require_gravity(double gravity) {
@@ -100,12 +129,26 @@ void require_gravity(double gravity) {
                     "9.81 m/s^2 on Earth, 1.62 m/s^2 on the Moon"});
 }
 
+bool as_vertical(double run, double drop) {
+  // rounding: what the run, and its friction at kRoughest, takes of the drop is lost in it
+  constexpr double kSteepest = 1e30;
+  return drop / run > kSteepest;
+}
+
+bool as_from_rest(const Endpoints& endpoints, double entry_speed, double gravity) {
+  const double way = math::hypot(endpoints.run, endpoints.drop);
+  return entry_speed < kRestShare * std::sqrt(gravity) * std::sqrt(way);
+}
+
 double drop_beyond_friction(const Endpoints& endpoints, Friction friction) {
   return std::fma(-friction.coefficient(), std::fabs(endpoints.run), endpoints.drop);
 }
 
 void require_reachable_from_rest(const Endpoints& endpoints, Friction friction) {
   require_falling(endpoints);
+  std::vector<Issue> issues;
+  append_faulty_friction(friction, issues);
+  if (!issues.empty()) throw InputError(std::move(issues));
   if (drop_beyond_friction(endpoints, friction) > 0.0) return;
   throw InfeasibleError(out_of_reach(endpoints, friction));
 }

@@ -36,6 +36,11 @@ double pressed_radius(const FlyingStartSolution& solution, double slope_angle) {
   return scale * cosine * (e + 4.0 * mu * cosine * (sine - shape.exit_slope * cosine)) / (e * e * e);
 }
 
+/// @return slope angle of the straight line to the finish
+double straight_slope(const Endpoints& ends) {
+  return math::atan2(ends.drop, std::fabs(ends.run));
+}
+
 /// @return atan(to) - atan(from), with no digits lost where they are close
 double turn_between(double from, double to) {
   return math::atan2(to - from, 1.0 + from * to);
@@ -46,9 +51,16 @@ double turn_between(double from, double to) {
 FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoints, Friction friction,
                                                        double entry_speed, double gravity)
     : solution_(solve_flying_start(endpoints, friction, entry_speed, gravity)) {
+  if (solution_.limit == FlyingStartLimit::rest) {
+    rest_ = std::make_shared<CoulombBrachistochrone>(endpoints, friction, gravity);
+    length_ = rest_->length();
+    return;
+  }
   const FlyingStartShape& shape = solution_.shape;
-  if (shape.horizontal_speed == 0.0) {
-    length_ = std::fabs(endpoints.drop);
+  // measured: beside a vertical its slopes tell a track of this run to 1e-7 of its length, the straight line to 1e-9
+  constexpr double kSteep = 1e-9;
+  if (shape.horizontal_speed == 0.0 || std::fabs(endpoints.run) < kSteep * std::fabs(endpoints.drop)) {
+    length_ = math::hypot(endpoints.run, endpoints.drop);
     return;
   }
   const double flown = math::atan2(shape.flight_turn, 1.0 + shape.entry_slope * shape.flight_end_slope);
@@ -67,8 +79,9 @@ FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoint
 
 double FlyingStartBrachistochrone::slope_angle(double s) const {
   require_on_track(s);
+  if (rest_) return rest_->slope_angle(s);
   if (flight_ && (s < flight_length_ || !pressed_)) return flight_->slope_angle(s);
-  return pressed_ ? pressed_->slope_angle(s - flight_length_) : solution_.entry_slope_angle.radians();
+  return pressed_ ? pressed_->slope_angle(s - flight_length_) : straight_slope(solution_.endpoints);
 }
 
 double FlyingStartBrachistochrone::curvature(double s, double slope_angle) const {
@@ -77,14 +90,17 @@ double FlyingStartBrachistochrone::curvature(double s, double slope_angle) const
 }
 
 Direction FlyingStartBrachistochrone::direction(double s) const {
+  if (rest_) return rest_->direction(s);
   const double zeta = slope_angle(s);
   return {zeta, curvature(s, zeta)};
 }
 
 CenterlinePoint FlyingStartBrachistochrone::at(double s) const {
   require_on_track(s);
-  SlopeTable::Point point{solution_.entry_slope_angle.radians(), 0.0,
-                          std::copysign(s, solution_.endpoints.drop)};
+  if (rest_) return rest_->at(s);
+  const Endpoints& ends = solution_.endpoints;
+  SlopeTable::Point point{straight_slope(ends), s * (std::fabs(ends.run) / length_),
+                          s * (ends.drop / length_)};
   if (flight_ && (s < flight_length_ || !pressed_)) {
     point = flight_->at(s);
   } else if (pressed_) {
@@ -95,7 +111,12 @@ CenterlinePoint FlyingStartBrachistochrone::at(double s) const {
   return {s, point.x, point.drop, point.slope_angle, curvature(s, point.slope_angle)};
 }
 
+bool FlyingStartBrachistochrone::unbounded_curvature_at_start() const noexcept {
+  return rest_ && rest_->unbounded_curvature_at_start();
+}
+
 std::vector<double> FlyingStartBrachistochrone::breaks() const {
+  if (rest_) return rest_->breaks();
   if (flight_ && pressed_) return {0.0, flight_length_, length_};
   return {0.0, length_};
 }

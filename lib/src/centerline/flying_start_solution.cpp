@@ -4,6 +4,7 @@
 // fixed run the drop grows with t1 from the reach limit (R6) to a pure flight. Both roots are bracketed.
 //
 // What the roots miss by rounding, the travel time does not, (V6).
+#include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/centerline/flying_start_brachistochrone.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
@@ -257,17 +258,37 @@ FlyingStartSolution begun(const Endpoints& endpoints, Friction friction, double 
   return solution;
 }
 
-/// Straight down or up.
-FlyingStartSolution vertical(FlyingStartSolution solution) {
+/// Straight to the finish, without loss: down or up, or too fast for anything else.
+/// @param drop  Y
+FlyingStartSolution straight(FlyingStartSolution solution, double drop) {
   const double v0 = solution.entry_speed;
-  const double drop = solution.endpoints.drop;
-  solution.exit_speed = std::sqrt(v0 * v0 + 2.0 * solution.gravity * drop);
-  solution.travel_time = 2.0 * std::fabs(drop) / (v0 + solution.exit_speed);
-  solution.entry_slope_angle = Angle::from_radians(std::copysign(kRightAngle, drop));
+  const Endpoints& ends = solution.endpoints;
+  const double unscaled = v0 * v0 + 2.0 * solution.gravity * ends.drop;
+  // Of two equal forms the one that stays within the range of numbers.
+  solution.exit_speed = std::isfinite(unscaled) ? std::sqrt(unscaled) : v0 * std::sqrt(1.0 + 2.0 * drop);
+  solution.travel_time = math::hypot(ends.run, ends.drop) / (0.5 * v0 + 0.5 * solution.exit_speed);
+  solution.entry_slope_angle = Angle::from_radians(math::atan2(ends.drop, std::fabs(ends.run)));
   solution.flight_end_slope_angle = solution.entry_slope_angle;
   solution.exit_slope_angle = solution.entry_slope_angle;
+  if (ends.run != 0.0) {
+    solution.limit = FlyingStartLimit::straight;
+    return solution;
+  }
   solution.flight_time = solution.travel_time;
-  solution.flight = {0.0, drop};
+  solution.flight = {0.0, ends.drop};
+  return solution;
+}
+
+/// The track from rest. A body that enters with speed is ahead by what it takes to fall to it; where the start is
+/// vertical that is all.
+FlyingStartSolution from_rest(FlyingStartSolution solution, Friction friction) {
+  const CoulombSolution rest = solve_coulomb_brachistochrone(solution.endpoints, friction, solution.gravity);
+  solution.limit = FlyingStartLimit::rest;
+  solution.travel_time = rest.travel_time - solution.entry_speed / solution.gravity;
+  solution.exit_speed = rest.exit_speed;
+  solution.entry_slope_angle = Angle::from_radians(kRightAngle);
+  solution.flight_end_slope_angle = solution.entry_slope_angle;
+  solution.exit_slope_angle = rest.exit_slope_angle;
   return solution;
 }
 
@@ -290,6 +311,22 @@ FlyingStartSolution flown(FlyingStartSolution solution, const Task& task) {
   return solution;
 }
 
+/// @param time  of all of the way, in units of v0/g
+/// @throws ConvergenceError if the track does not lead to the finish
+void require_found(const Candidate& track, const Task& task, double time) {
+  constexpr double kMiss = 1e-3;  // taste: what is found at all misses by rounding
+  const double miss = math::hypot(track.run - task.run, track.drop - task.drop);
+  const bool told = miss <= kMiss * math::hypot(task.run, task.drop);
+  if (told && std::fabs(time - track.time) <= kMiss * time) return;
+  throw ConvergenceError(
+      {"",
+       "fastest track: no track was found for run " + exact_text(task.run) + " and drop " +
+           exact_text(task.drop) + " in units of v0^2/g, friction coefficient " + exact_text(task.mu),
+       "So flat, at the limit of what can be reached or at a speed so low, slopes are no longer "
+       "told apart.",
+       "a drop that is more of the run"});
+}
+
 FlyingStartSolution pressed(FlyingStartSolution solution, const Task& task) {
   const Candidate track = pressed_track(task);
   const Flight& flight = track.flight;
@@ -299,6 +336,7 @@ FlyingStartSolution pressed(FlyingStartSolution solution, const Task& task) {
   const double costate = 1.0 / (horizontal * track.junction.e);
   const double time = track.time + costate * ((1.0 + task.mu * track.exit_slope) * (task.run - track.run) +
                                               (track.exit_slope - task.mu) * (task.drop - track.drop));
+  require_found(track, task, time);
   FlyingStartShape& shape = solution.shape;
   shape.entry_slope = flight.entry_slope;
   shape.flight_turn = flight.turn;
@@ -325,13 +363,20 @@ FlyingStartSolution solve_flying_start(const Endpoints& endpoints, Friction fric
   require_gravity(gravity);
   require_reachable_with_speed(endpoints, friction, entry_speed, gravity);
   FlyingStartSolution solution = begun(endpoints, friction, entry_speed, gravity);
+  if (as_from_rest(endpoints, entry_speed, gravity)) return from_rest(solution, friction);
   const double unit = entry_speed / gravity * entry_speed;
   const double mu = friction.coefficient();
   const double run = std::fabs(endpoints.run) / unit;
   const double drop = endpoints.drop / unit;
-  if (!(run > std::numeric_limits<double>::min())) return vertical(solution);
+  // measured: as near to a vertical line as this a track told by its slopes is off by 1e-4 of its length, and the
+  // vertical by 1e-12
+  constexpr double kSteep = 1e-12;
+  const bool steep = run < kSteep * std::fabs(drop);
+  if (steep || !(run > std::numeric_limits<double>::min())) return straight(solution, drop);
   const Task task = task_of(mu, run, drop);
   const bool flies = run * run * (1.0 + mu * mu) <= mu * mu * (1.0 + 2.0 * drop);
+  // It turns by X, by more where it slows down.
+  if (!flies && run < kStraightTurn * std::min(1.0, 1.0 + 2.0 * drop)) return straight(solution, drop);
   solution = flies ? flown(solution, task) : pressed(solution, task);
   solution.entry_slope_angle = Angle::from_radians(math::atan(solution.shape.entry_slope));
   solution.flight_end_slope_angle = Angle::from_radians(math::atan(solution.shape.flight_end_slope));

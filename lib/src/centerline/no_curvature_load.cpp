@@ -48,13 +48,13 @@ NoCurvatureLoadCurve::NoCurvatureLoadCurve(const Endpoints& endpoints, Friction 
     : mu_(friction.coefficient()) {
   require_reachable_from_rest(endpoints, friction);
   const double run = std::fabs(endpoints.run);
-  const double ratio = drop_beyond_friction(endpoints, friction) / run;
-  if (!std::isfinite(ratio)) {
+  const double drop = std::max(drop_beyond_friction(endpoints, friction), kFlattest * run);
+  if (as_vertical(run, drop)) {
     scale_ = std::numeric_limits<double>::infinity();
     length_ = endpoints.drop;
     return;
   }
-  finish_half_tangent_ = finish_half_tangent(mu_, ratio);
+  finish_half_tangent_ = finish_half_tangent(mu_, drop / run);
   const Phase half = phase_at(finish_half_tangent_);
   scale_ = run / (2.0 * half.sine * (half.first_integral + mu_ * half.sine));
   length_ = 4.0 * scale_ * half.sine * (finish_half_tangent_ + mu_);  // 1 - cos a = sin a tan(a/2)
@@ -79,7 +79,7 @@ CenterlinePoint NoCurvatureLoadCurve::at(double s) const {
   if (!std::isfinite(scale_)) return {s, 0.0, s, kRightAngle, 0.0};
   if (s == 0.0) return {0.0, 0.0, 0.0, kRightAngle, 1.0 / (4.0 * scale_ * mu_)};
   const double part = s / (4.0 * scale_);  // 1 - cos a + mu sin a, a quadratic in tan(a/2)
-  const double half_tangent = part / (mu_ + std::sqrt(mu_ * mu_ + part * (2.0 - part)));
+  const double half_tangent = part / (mu_ + std::sqrt(std::max(0.0, mu_ * mu_ + part * (2.0 - part))));
   const Phase half = phase_at(std::min(half_tangent, finish_half_tangent_));
   return {s, 2.0 * scale_ * half.sine * (half.first_integral + mu_ * half.sine),
           2.0 * scale_ * (half.sine * half.sine + mu_ * (half.angle + half.sine * half.cosine)),

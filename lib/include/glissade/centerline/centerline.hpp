@@ -32,6 +32,13 @@ struct Endpoints {
   friend bool operator==(const Endpoints&, const Endpoints&) = default;
 };
 
+/// What the longer of run and drop may be for a closed form of the fastest track or a cycloid [m]; squares and
+/// quotients of what they are found by stay within the range of numbers.
+inline constexpr double kShortestWay = 1e-200;
+inline constexpr double kLongestWay = 1e200;
+/// The highest friction coefficient of those closed forms, 89.994 deg.
+inline constexpr double kRoughest = 1e4;
+
 /// A curve in the vertical plane, by arc length: what a body slides on and what a solid is built along.
 ///
 /// Curve: dx = cos(zeta) ds, dy = sin(zeta) ds (docs/theory.md, frame); position and slope angle are

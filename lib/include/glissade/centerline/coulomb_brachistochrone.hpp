@@ -58,9 +58,11 @@ struct CoulombSolution {
 
 /// Finds the fastest track from rest. Allocates nothing unless it throws.
 /// @param endpoints  run [m], finite, any sign (a negative run is the mirror image), 0 is free fall along a
-///                   vertical line; drop [m], finite, > 0 and > mu |run|
+///                   vertical line; drop [m], finite, > 0 and > mu |run|; the longer of both kShortestWay to
+///                   kLongestWay
 /// @param gravity    [m/s^2]; finite, > 0
-/// @throws InputError if run, drop or gravity is not finite, or drop or gravity is not positive
+/// @throws InputError if run, drop or gravity is not finite, drop or gravity is not positive, the way is out of
+///         its range, or the friction coefficient is above kRoughest
 /// @throws InfeasibleError if drop <= mu |run|: from rest, no track whatever reaches the finish
 [[nodiscard]] CoulombSolution solve_coulomb_brachistochrone(const Endpoints& endpoints, Friction friction,
                                                             double gravity = kDefaultGravity);

@@ -19,8 +19,9 @@ class Cycloid final : public Centerline {
   /// Stated bound of the position error relative to the length, measured in docs/accuracy.md.
   static constexpr double kPositionAccuracy = 1e-14;
 
-  /// @param endpoints  run [m], finite, any sign; drop [m], finite, > 0
-  /// @throws InputError if run or drop is not finite, or drop is not positive
+  /// @param endpoints  run [m], finite, any sign; drop [m], finite, > 0; the longer of both kShortestWay to
+  ///                   kLongestWay
+  /// @throws InputError if run or drop is not finite, drop is not positive, or both are out of that range
   explicit Cycloid(const Endpoints& endpoints);
 
   /// @return radius A of the rolling circle [m]; +infinity where the track is vertical

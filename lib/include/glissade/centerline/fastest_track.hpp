@@ -12,7 +12,7 @@ struct FastestTrack {
   double exit_speed = 0.0;   ///< [m/s]
 };
 
-/// @param entry_speed  [m/s]; finite, >= 0
+/// @param entry_speed  [m/s]; finite, >= 0, however small or large
 /// @throws as solve_coulomb_brachistochrone from rest, as solve_flying_start with an entry speed
 [[nodiscard]] FastestTrack fastest_track(const Endpoints& endpoints, Friction friction, double entry_speed,
                                          double gravity = kDefaultGravity);
