@@ -149,6 +149,15 @@ TEST_CASE("the table of docs/accuracy.md is the one that the readings give") {
   }
 }
 
+TEST_CASE("a reading without a track is told by its name") {
+  testing::Random random = testing::seeded_random();
+  const Body body = skier(0.03, 0.0013);
+  std::vector<SpeedReading> readings = readings_of(body, 0.0, random);
+  readings[3].track = nullptr;
+  CHECK_THROWS_WITH(fit_speeds(readings, body), Contains("hill 3: the reading has no track"));
+  CHECK_THROWS_WITH(speed_residuals(readings, body), Contains("hill 3: the reading has no track"));
+}
+
 TEST_CASE("lines of speeds that do not belong to their hill are told with line, value and a way out") {
   CHECK(problem_of("gate,speed_km_h\n1,85\n49,92\n", "hills/garmisch_hs142.yaml") == "");
   CHECK_THAT(problem_of("gate,speed_km_h\n50,85\n", "hills/garmisch_hs142.yaml"),

@@ -8,6 +8,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/trades/chute/stream.hpp"
+#include "glissade/trades/chute/wear.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -231,6 +232,26 @@ TEST_CASE("a hood that does not turn its stream down is refused") {
   CHECK_THROWS_WITH(hood_arc(hood_of(1.0, 20.0, 100.0), {4.0, Angle::from_degrees(50.0)}),
                     Contains("straight down"));
   CHECK_THROWS_WITH(hood_arc(hood_of(-1.0, 20.0, 80.0), {4.0, Angle{}}), Contains("radius"));
+}
+
+TEST_CASE("what only a stream has is not asked of a body that is none") {
+  const auto track = std::make_shared<const StraightLine>(Endpoints{4.0, 3.0});
+  Body point;
+  point.friction = Friction::from_coefficient(0.3);
+  point.entry_speed = 2.0;
+  const Landing feed{3.5, Angle::from_degrees(20.0)};
+  CHECK_THROWS_WITH(pass_hood(hood_of(1.0, 10.0, 80.0), feed, point, kGravity), Contains("no stream"));
+  CHECK_THROWS_WITH(HoodApproach(hood_of(1.0, 10.0, 80.0), feed, kGravity).landing(point),
+                    Contains("no stream"));
+  const Motion ride(track, point);
+  CHECK_THROWS_WITH(wear_of({&ride}), Contains("ride 1 is of no stream"));
+  CHECK_THROWS_WITH(floor_loads({&ride}), Contains("ride 1 is of no stream"));
+  CHECK_THROWS_WITH(wear_of({nullptr}), Contains("ride 1 is none"));
+  CHECK_THROWS_WITH(floor_loads({nullptr}), Contains("ride 1 is none"));
+  CHECK_THROWS_AS(wear_of({}), InputError);
+  CHECK_THROWS_WITH(choking_mass_flow(track, point, kGravity), Contains("no stream"));
+  CHECK_THROWS_WITH(with_flow(point, 2.0), Contains("no stream"));
+  CHECK_THROWS_WITH(with_density(point, 800.0), Contains("no stream"));
 }
 
 }  // namespace hood_test

@@ -36,13 +36,9 @@ void require_shape(const HoodShape& hood) {
 }
 
 /// The same stream below the hood: as wide and as high as where its track begins.
-Body below_hood(const Body& body, double entry_speed) {
-  const BulkStream* const stream = stream_of(body);
-  if (stream == nullptr)
-    throw InputError(
-        {"", "the body is no stream", "Only a stream passes a hood.", "a body whose law is BulkStream"});
-  StreamShape shape = stream->shape();
-  shape.width = WidthLaw(stream->width(0.0));
+Body below_hood(const Body& body, const BulkStream& stream, double entry_speed) {
+  StreamShape shape = stream.shape();
+  shape.width = WidthLaw(stream.width(0.0));
   shape.underside = true;
   Body below;
   below.friction = body.friction;
@@ -90,12 +86,16 @@ namespace {
 
 /// All but where it is pressed least, which takes a look at many places.
 HoodPassage passage_of(const HoodShape& hood, const Landing& feed, const Body& body, double gravity) {
+  const BulkStream* const stream = stream_of(body);
+  if (stream == nullptr)
+    throw InputError(
+        {"", "the body is no stream", "Only a stream passes a hood.", "a body whose law is BulkStream"});
   const CenterlinePtr arc = hood_arc(hood, feed);
   // The impact is that on a floor at the same angle to the way.
-  Impact impact = impact_on({feed.speed, hood.impact_angle}, Angle{}, body.friction,
-                            stream_of(body)->shape().bulk_density);
+  Impact impact =
+      impact_on({feed.speed, hood.impact_angle}, Angle{}, body.friction, stream->shape().bulk_density);
   const double entry_speed = std::max(impact.speed_ratio * feed.speed, kStopped);
-  Motion motion(arc, below_hood(body, entry_speed), gravity);
+  Motion motion(arc, below_hood(body, *stream, entry_speed), gravity);
 
   HoodPassage passage{impact, std::move(motion)};
   const Motion& ride = passage.motion;

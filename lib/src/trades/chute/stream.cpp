@@ -71,6 +71,14 @@ std::optional<Stall> stall_of(const Motion& motion, const BulkStream& stream) {
   return Stall{end->arc_length, Angle::from_radians(std::max(0.0, missing))};
 }
 
+/// @throws InputError if the body is no stream
+const BulkStream& required_stream(const Body& body) {
+  const BulkStream* const stream = stream_of(body);
+  if (stream != nullptr) return *stream;
+  throw InputError({"", "the body is no stream", "Only what flows has a depth and a mass flow.",
+                    "a body whose law is BulkStream"});
+}
+
 Body with_shape(Body body, const StreamShape& shape) {
   body.law = std::make_shared<const BulkStream>(shape);
   return body;
@@ -99,9 +107,7 @@ std::optional<StreamFacts> stream_facts(const Motion& motion) {
 }
 
 StreamState stream_state(const Motion& motion, double s) {
-  const BulkStream* const stream = stream_of(motion.body());
-  if (stream == nullptr)
-    throw InputError({"", "the body is no stream", "", "a body whose law is BulkStream"});
+  const BulkStream* const stream = &required_stream(motion.body());
   const MotionState at = motion.at(s);
   const StreamShape& shape = stream->shape();
   const double width = stream->width(s);
@@ -118,6 +124,7 @@ StreamState stream_state(const Motion& motion, double s) {
 }
 
 std::optional<double> choking_mass_flow(const CenterlinePtr& centerline, const Body& body, double gravity) {
+  const double own_flow = required_stream(body).shape().mass_flow;
   // A larger flow is deeper at each speed, rubs more and is slower: what chokes once chokes beyond.
   const auto chokes = [&](double factor) {
     return Motion(centerline, with_flow(body, factor), gravity).law_end().has_value();
@@ -140,17 +147,17 @@ std::optional<double> choking_mass_flow(const CenterlinePtr& centerline, const B
     const double tried = 0.5 * (clear + choked);
     (chokes(tried) ? choked : clear) = tried;
   }
-  return clear * stream_of(body)->shape().mass_flow;
+  return clear * own_flow;
 }
 
 Body with_flow(Body body, double factor) {
-  StreamShape shape = stream_of(body)->shape();
+  StreamShape shape = required_stream(body).shape();
   shape.mass_flow *= factor;
   return with_shape(std::move(body), shape);
 }
 
 Body with_density(Body body, double density) {
-  StreamShape shape = stream_of(body)->shape();
+  StreamShape shape = required_stream(body).shape();
   shape.bulk_density = density;
   return with_shape(std::move(body), shape);
 }

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace glissade {
 namespace {
@@ -23,6 +24,17 @@ std::vector<double> places_of(const Motion& motion) {
   }
   std::sort(places.begin(), places.end());
   return places;
+}
+
+void require_rides(const std::vector<const Motion*>& rides) {
+  if (rides.empty()) throw InputError({"", "there is no ride to wear anything", "", ""});
+  for (std::size_t i = 0; i < rides.size(); ++i) {
+    if (rides[i] != nullptr && stream_of(rides[i]->body()) != nullptr) continue;
+    const std::string which = "ride " + std::to_string(i + 1);
+    throw InputError({"", which + (rides[i] == nullptr ? " is none" : " is of no stream"),
+                      "What flows rubs on its floor; a point or a ball is not told to.",
+                      "rides of a body whose law is BulkStream"});
+  }
 }
 
 void join(std::vector<WearStretch>& stretches) {
@@ -47,7 +59,7 @@ double pressed_at(const Motion& motion, const StreamState& state, double s) {
 }  // namespace
 
 WearFacts wear_of(const std::vector<const Motion*>& rides) {
-  if (rides.empty()) throw InputError({"", "there is no ride to wear anything", "", ""});
+  require_rides(rides);
   WearFacts facts;
   for (std::size_t i = 0; i < rides.size(); ++i) {
     const Motion& motion = *rides[i];
@@ -88,7 +100,7 @@ double thickness_loss_rate(const LinerWear& liner, double pressed) {
 }
 
 std::vector<FloorLoad> floor_loads(const std::vector<const Motion*>& rides) {
-  if (rides.empty()) throw InputError({"", "there is no ride to wear anything", "", ""});
+  require_rides(rides);
   std::vector<double> places;
   for (const Motion* const ride : rides) {
     const std::vector<double> of_ride = places_of(*ride);

@@ -26,6 +26,14 @@ Body with(Body body, double friction, double drag) {
   return body;
 }
 
+void require_tracks(const std::vector<SpeedReading>& readings) {
+  for (const SpeedReading& reading : readings) {
+    if (reading.track != nullptr) continue;
+    throw InputError({"", reading.name + ": the reading has no track",
+                      "A speed was measured somewhere on an in-run.", "the in-run that was ridden"});
+  }
+}
+
 double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
   const Motion motion = ride_from(reading.track, reading.from_start, body, gravity);
   const double way = reading.place - reading.from_start;
@@ -47,6 +55,7 @@ void require_readings(const std::vector<SpeedReading>& readings, std::size_t par
                       "There are at least as many speeds as parameters.",
                       "one of the two held at a known value"});
   }
+  require_tracks(readings);
   for (const SpeedReading& reading : readings) {
     const bool in_place = reading.from_start >= 0.0 && reading.place > reading.from_start &&
                           reading.place <= reading.track->length();
@@ -191,6 +200,7 @@ class Fit {
 
 std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings, const Body& body,
                                            double gravity) {
+  require_tracks(readings);
   std::vector<SpeedResidual> residuals;
   residuals.reserve(readings.size());
   for (const SpeedReading& reading : readings) {

@@ -58,6 +58,7 @@ struct StreamState {
 
 /// The greatest mass flow that does not choke on a track, all else equal; to kChokingFlowAccuracy.
 /// @param body  a stream that need not carry that much itself
+/// @throws InputError if the body is no stream, or as Motion
 /// @return [kg/s]; 0 if not even a grain arrives; none if it does not choke at a thousand times the body's flow
 [[nodiscard]] std::optional<double> choking_mass_flow(const CenterlinePtr& centerline, const Body& body,
                                                       double gravity);
@@ -65,8 +66,10 @@ struct StreamState {
 /// The body with another flow, as a share of its own.
 /// @param body  a stream
 /// @param factor  > 0
+/// @throws InputError if the body is no stream
 [[nodiscard]] Body with_flow(Body body, double factor);
 /// The body with another bulk density [kg/m^3].
+/// @throws InputError if the body is no stream
 [[nodiscard]] Body with_density(Body body, double density);
 
 /// Stated relative accuracy of choking_mass_flow().

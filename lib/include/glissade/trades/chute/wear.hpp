@@ -27,7 +27,7 @@ struct WearFacts {
 };
 
 /// @param rides  of streams, at least one; one that ends early counts as far as it goes
-/// @throws InputError if there is none, or one is of no stream
+/// @throws InputError if there is none, or one is null or of no stream
 [[nodiscard]] WearFacts wear_of(const std::vector<const Motion*>& rides);
 
 /// A liner under Archard's law: thickness lost in each second is k p v_slip/hardness.
@@ -47,6 +47,7 @@ struct FloorLoad {
   double pressed = 0.0;  ///< p v_slip [W/m^2]
 };
 /// @param rides  as for wear_of()
+/// @throws InputError as wear_of()
 /// @return by ascending places, close enough for what changes with load and width
 [[nodiscard]] std::vector<FloorLoad> floor_loads(const std::vector<const Motion*>& rides);
 

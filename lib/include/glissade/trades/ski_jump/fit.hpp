@@ -53,12 +53,14 @@ struct SpeedFitOptions {
 /// derivatives. End speeds tell friction and drag apart badly: their correlation is near -1, and the sum of what both take
 /// away is known much better than either.
 /// @param body     everything else about the body: height of the centre of mass, wind
-/// @throws InputError if there are fewer readings than parameters, a reading is out of its range, or no ride arrives
+/// @throws InputError if there are fewer readings than parameters, a reading has no track or is out of its range, or
+///   no ride arrives
 /// @throws ConvergenceError if the iteration does not settle
 [[nodiscard]] SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
                                   const SpeedFitOptions& options = {}, double gravity = kDefaultGravity);
 
 /// The readings against a given body.
+/// @throws InputError if a reading has no track, or a ride does not come to its place
 [[nodiscard]] std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings,
                                                          const Body& body, double gravity = kDefaultGravity);
 /// @return root of the mean square of the excesses [m/s]
