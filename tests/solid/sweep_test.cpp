@@ -5,6 +5,7 @@
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/solid/level_line.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
@@ -482,6 +483,19 @@ TEST_CASE("sweep: options outside their bounds are refused") {
   CHECK_THAT(message_of([&] { return build(1e-3, 999); }), contains_text("max_triangles: 999 is too few"));
   CHECK_THAT(message_of([&] { return build(1e-12, 1000000); }),
              contains_text("is finer than the coordinates can carry"));
+}
+
+TEST_CASE("level line: a tolerance that is none is refused, and the finest it takes ends") {
+  const CoulombBrachistochrone track({3.0, 2.0}, Friction::from_coefficient(0.3));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double tolerance : {0.0, -1.0, 1e-300, nan, std::numeric_limits<double>::infinity()}) {
+    CHECK_THAT(message_of([&] { return level_line(track, 0.1, tolerance); }),
+               contains_text("a tolerance of "));
+    CHECK_THAT(message_of([&] { return offset_line(track, 0.1, tolerance); }),
+               contains_text("a tolerance of "));
+  }
+  CHECK_THAT(message_of([&] { return level_line(track, nan, 1e-3); }), contains_text("at a height of nan m"));
+  CHECK(level_line(track, 0.1, 1e-9).size() > 1000);
 }
 
 TEST_CASE("sweep: far from the origin the solid is still valid") {

@@ -1,9 +1,13 @@
 #include "glissade/solid/level_line.hpp"
 
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+
 #include "solid/level_curves.hpp"
 #include "solid/stations.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace glissade {
 
@@ -15,6 +19,16 @@ LevelCurves curves_of(const Centerline& centerline, double height, double tolera
   // Trims are placed this much more closely than the line follows the curve.
   constexpr double kTrimShare = 0.1;
   constexpr double kFewestSteps = 64.0;
+  constexpr double kFinest = 1e-12;  // rounding: of the length, finer than its coordinates are told to
+  if (!(std::isfinite(tolerance) && tolerance >= kFinest * centerline.length() && std::isfinite(height))) {
+    throw InputError({"",
+                      "level line: a tolerance of " + exact_text(tolerance) + " m at a height of " +
+                          exact_text(height) + " m",
+                      "Both are finite, and the tolerance at least " +
+                          length_text(kFinest * centerline.length()) +
+                          ", what a track of that length is told to.",
+                      "1 mm to draw it"});
+  }
   const double below = std::max(0.0, -height);
   const double above = std::max(0.0, height);
   const StationLimits limits{tolerance, below, above, centerline.length() / kFewestSteps};
