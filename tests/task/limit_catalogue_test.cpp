@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <set>
@@ -96,4 +97,30 @@ TEST_CASE("a problem out of its bounds is refused in degrees, with what to try")
     CHECK(error.issues()[0].hint == "at most 90 deg");
     CHECK(error.issues()[1].what == "lead_in: -1 m is out of range");
   }
+}
+
+TEST_CASE("a problem's envelope and outlines are held to their bounds, outlines as those of a design are") {
+  const auto refused = [](const Envelope& envelope, const std::vector<Vec2>& outline) -> std::string {
+    Problem problem;
+    problem.endpoints = {10.0, 5.0};
+    problem.limits.envelope = envelope;
+    problem.limits.keep_outs = {{outline}};
+    try {
+      require_valid(problem);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::vector<Vec2> box = {{4.0, 0.0}, {5.0, 0.0}, {5.0, 1.0}, {4.0, 1.0}};
+  CHECK(refused({0.1, 0.2, 0.3}, box).empty());
+  CHECK_THAT(refused({-1.0, 0.0, 0.0}, box), contains_text("envelope.below: -1"));
+  CHECK_THAT(refused({0.0, HUGE_VAL, 0.0}, box), contains_text("envelope.above: inf"));
+  CHECK_THAT(refused({0.0, 0.0, std::nan("")}, box), contains_text("envelope.headroom: nan"));
+  CHECK_THAT(refused({}, {{3.0, 4.0}, {5.0, 7.0}, {3.0, 7.0}, {5.0, 4.0}}),
+             contains_text("keep_outs outline: the edges after corners 0 and 2 meet"));
+  CHECK_THAT(refused({}, {{3.0, 4.0}, {3.0, 4.0}, {5.0, 7.0}}), contains_text("are the same point"));
+  CHECK_THAT(refused({}, {{3.0, 4.0}, {5.0, 7.0}}), contains_text("2 corners"));
+  CHECK_THAT(refused({}, {{3.0, 4.0}, {5.0, std::nan("")}, {3.0, 7.0}}),
+             contains_text("corner 1 is out of range"));
 }

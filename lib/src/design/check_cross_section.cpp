@@ -1,7 +1,7 @@
 #include "glissade/core/number_text.hpp"
 
+#include "core/outline.hpp"
 #include "design/checks.hpp"
-#include "design/outline.hpp"
 
 #include <optional>
 #include <string>
@@ -39,7 +39,7 @@ class MeasureCheck {
   void angle(const std::string& key, Angle, const char*) { note(key); }
   void corners(const std::string& key, const std::vector<Vec2>& corners, const char*) {
     note(key);
-    if (auto fault = outline_fault(corners, key)) add(key, *std::move(fault));
+    if (auto fault = core::outline_fault(corners, key)) add(key, *std::move(fault));
   }
   void misnomer(const char*, const char*) const {}
 

@@ -5,8 +5,8 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "core/counted.hpp"
+#include "core/outline.hpp"
 #include "design/checks.hpp"
-#include "design/outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -276,7 +276,7 @@ void check_fixed_point(const Limits& limits, const NamedPoint& point, Collected&
   }
   for (std::size_t index = 0; index < limits.keep_outs.size(); ++index) {
     if (limits.keep_outs[index].outline.size() < 3) continue;
-    if (!inside_outline(limits.keep_outs[index].outline, point.point)) continue;
+    if (!core::inside_outline(limits.keep_outs[index].outline, point.point)) continue;
     report_breach(point, "keep_outs." + std::to_string(index),
                   "lies in keep_outs[" + std::to_string(index) + "]", findings);
   }
@@ -301,7 +301,7 @@ void check_shapes(const Limits& limits, Collected& findings) {
   for (std::size_t index = 0; index < limits.keep_outs.size(); ++index) {
     const std::string key = "keep_outs." + std::to_string(index);
     check_clearance(limits.keep_outs[index].clearance, key, findings);
-    if (auto fault = outline_fault(limits.keep_outs[index].outline, "outline")) {
+    if (auto fault = core::outline_fault(limits.keep_outs[index].outline, "outline")) {
       report(findings, {path(key) + ".outline"}, *std::move(fault));
     }
   }

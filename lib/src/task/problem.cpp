@@ -6,6 +6,7 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "core/counted.hpp"
+#include "core/outline.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -134,13 +135,17 @@ void check_obstacles(const Limits& limits, Checker& check) {
                  "a clearance is not negative");
   }
   for (const KeepOut& keep_out : limits.keep_outs) {
-    check.points("keep_outs outline", keep_out.outline, 3);
+    if (auto fault = core::outline_fault(keep_out.outline, "keep_outs outline")) check.add(std::move(*fault));
     check.number("keep_outs clearance", keep_out.clearance, keep_out.clearance >= 0.0,
                  "a clearance is not negative");
   }
   check_profiles("stay_above", limits.stay_above, check);
   check_profiles("stay_below", limits.stay_below, check);
   check.points("waypoints", limits.waypoints, 0);
+  const Envelope& envelope = limits.envelope;
+  check.number("envelope.below", envelope.below, envelope.below >= 0.0, "a depth is not negative");
+  check.number("envelope.above", envelope.above, envelope.above >= 0.0, "a height is not negative");
+  check.number("envelope.headroom", envelope.headroom, envelope.headroom >= 0.0, "a height is not negative");
 }
 
 }  // namespace

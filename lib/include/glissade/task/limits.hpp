@@ -37,7 +37,8 @@ enum class Passage { either, above, below };
 
 /// A polygon that the track, or the solid round it, keeps out of.
 struct KeepOut {
-  std::vector<Vec2> outline;          ///< simple polygon [m], either winding, at least 3 corners
+  /// Simple polygon [m], either winding: 3 to 2000 corners within 1e7 m, neighbours at least 1e-6 m apart.
+  std::vector<Vec2> outline;
   double clearance = 0.0;             ///< distance from the envelope to the polygon >= clearance [m]; >= 0
   Passage passage = Passage::either;  ///< either: both are tried, the faster one is taken
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace glissade::design_file {
+namespace glissade::core {
 
 /// @return why the corners are no simple polygon of sensible size, none if they are one
 [[nodiscard]] std::optional<Issue> outline_fault(const std::vector<Vec2>& outline, const std::string& name);
@@ -17,4 +17,4 @@ namespace glissade::design_file {
 /// @return true if the point lies inside or on an edge
 [[nodiscard]] bool inside_outline(const std::vector<Vec2>& outline, Vec2 point);
 
-}  // namespace glissade::design_file
+}  // namespace glissade::core

@@ -1,4 +1,4 @@
-#include "design/outline.hpp"
+#include "core/outline.hpp"
 
 #include "core/counted.hpp"
 #include "core/plane_geometry.hpp"
@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace glissade::design_file {
+namespace glissade::core {
 namespace {
 
 constexpr std::size_t kMostCorners = 2000;
@@ -77,7 +77,7 @@ std::optional<Issue> outline_fault(const std::vector<Vec2>& outline, const std::
     return Issue{"", name + ": " + what, why, hint};
   };
   if (outline.size() < 3 || outline.size() > kMostCorners) {
-    return fault(core::counted(outline.size(), "corner"), "An outline has between 3 and 2000 corners.", "");
+    return fault(counted(outline.size(), "corner"), "An outline has between 3 and 2000 corners.", "");
   }
   for (std::size_t index = 0; index < outline.size(); ++index) {
     const Vec2 corner = outline[index];
@@ -106,7 +106,7 @@ bool touches_outline(const std::vector<Vec2>& outline, Vec2 point) {
 
 bool inside_outline(const std::vector<Vec2>& outline, Vec2 point) {
   if (touches_outline(outline, point)) return true;
-  return core::is_inside(point, outline);
+  return is_inside(point, outline);
 }
 
-}  // namespace glissade::design_file
+}  // namespace glissade::core
