@@ -43,6 +43,16 @@ TEST_CASE("a quantile is the value below which that share lies") {
   }
 }
 
+TEST_CASE("a quantile lies between the ends of a probability, which have none") {
+  for (const char* const law : {"uniform(15,19)", "normal(17,1.5)", "truncated-normal(5,1,0,1)",
+                                "lognormal(17,0.1)", "triangular(14,17,21)"}) {
+    for (const double p : {0.0, 1.0, -1.0, 2.0, std::nan("")}) {
+      INFO(law << " at " << p);
+      CHECK_THROWS_AS(quantile(law, p), InputError);
+    }
+  }
+}
+
 TEST_CASE("a truncated normal distribution keeps its bounds and its shares, far in a tail too") {
   for (const auto& [low, high] :
        {std::pair(14.0, 20.0), std::pair(20.0, 30.0), std::pair(2.0, 10.0), std::pair(25.0, 26.0)}) {

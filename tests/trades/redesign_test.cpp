@@ -126,6 +126,11 @@ TEST_CASE("a speed that the bend alone exceeds, or that drag does not allow, is 
   CHECK_THROWS_WITH(reaching(garmisch(), take_off(15.0)),
                     contains_text("less than the transition alone gives"));
   CHECK_THROWS_WITH(reaching(garmisch(), take_off(70.0)), contains_text("out of reach of this body"));
+  for (const double speed : {std::nan(""), 0.0, -1.0, HUGE_VAL})
+    CHECK_THROWS_AS(reaching(garmisch(), take_off(speed)), InputError);
+  for (const double load : {std::nan(""), 0.0, -1.0, HUGE_VAL, 1e9})
+    CHECK_THROWS_WITH(load_controlled_in_run(garmisch(), load, take_off(25.0)),
+                      contains_text("radial_load: "));
 }
 
 TEST_CASE(

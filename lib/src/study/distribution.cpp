@@ -203,6 +203,10 @@ Distribution Distribution::parse(std::string_view text, std::string_view name) {
 }
 
 double Distribution::quantile(double probability) const {
+  if (!(probability > 0.0 && probability < 1.0)) {
+    throw InputError({"", "probability: " + exact_text(probability) + " does not lie between 0 and 1",
+                      "A quantile parts the values: some lie below it and some above.", "0.5, the median"});
+  }
   const std::vector<double>& p = parameters_;
   switch (kind_) {
     case DistributionKind::uniform:

@@ -24,10 +24,12 @@ class Distribution {
   /// @param text  as a user writes it, e.g. "normal(17deg, 1.5deg)"; every parameter that has a unit has the same one
   /// @param name  what scatters, for messages
   /// @throws InputError if the name, the number of parameters, a number or a unit is wrong; a standard deviation,
-  ///         SIGMA or width is not positive; a MEDIAN is not positive; a MODE or MEAN lies outside its bounds
+  ///         SIGMA or width is not positive; a MEDIAN is not positive; a MODE lies outside its bounds; the bounds of
+  ///         a truncated normal lie more than 30 standard deviations from its MEAN, which they need not hold
   [[nodiscard]] static Distribution parse(std::string_view text, std::string_view name);
 
   /// @param probability  0 < probability < 1
+  /// @throws InputError if it is not within them
   /// @return the value below which this share of all values lies [unit()]
   [[nodiscard]] double quantile(double probability) const;
 

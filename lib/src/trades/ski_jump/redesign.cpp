@@ -55,6 +55,11 @@ double root_between(const std::function<double(double)>& excess, double low, dou
 /// The straight at which a take-off speed is reached.
 /// @param speed  at the edge with a straight of this length [m]
 double straight_for(const TakeOff& take_off, const std::function<double(double)>& speed) {
+  if (!(take_off.speed > 0.0 && std::isfinite(take_off.speed))) {
+    throw InputError({"take-off speed",
+                      "take-off speed: " + exact_text(take_off.speed) + " m/s is not a finite speed above 0",
+                      "It is what the straight is as long as.", "25 m/s for a large hill"});
+  }
   const auto excess = [&](double straight) { return speed(straight) - take_off.speed; };
   constexpr double kShortest = 1e-9;  // [m]
   if (excess(kShortest) > 0.0) {
@@ -268,12 +273,21 @@ class LoadBend {
     const auto missing = [&](double length) { return turned(length, v, nullptr) - turn_; };
     double high = 10.0;
     while (missing(high) < 0.0 && high < kLongestStraight) high *= 2.0;
+    constexpr double kShortestBend = 1e-6;  // [m] taste: no bend of a hill
+    if (!(missing(kShortestBend) < 0.0 && missing(high) >= 0.0)) refuse_load(v);
     std::vector<ClothoidSegment> pieces;
-    static_cast<void>(turned(root_between(missing, 1e-6, high), v, &pieces));
+    static_cast<void>(turned(root_between(missing, kShortestBend, high), v, &pieces));
     return pieces;
   }
 
  private:
+  [[noreturn]] void refuse_load(double v) const {
+    throw InputError({"radial_load",
+                      "radial_load: " + exact_text(radial_) + " m/s^2 gives no bend for a body with " +
+                          speed_words(std::sqrt(v)) + " where it begins",
+                      "The bend is shorter than 0.001 mm, or the body comes to a stand in it.",
+                      "7.14 m/s^2"});
+  }
   static double load_at(double share) {
     constexpr double kRamp = 0.25;
     return std::min({share / kRamp, 1.0, (1.0 - share) / kRamp});

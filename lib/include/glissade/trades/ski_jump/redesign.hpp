@@ -19,6 +19,7 @@ struct TakeOff {
 /// The in-run of these letters that begins as high as a take-off speed needs.
 /// Accuracy: kTakeOffAccuracy of the speed.
 /// @param shape  its length is not asked
+/// @throws InputError if the speed is not finite and positive
 /// @throws InfeasibleError if the body is faster at the edge without any straight, or never as fast: drag and friction let
 ///         it have no more
 [[nodiscard]] InRunShape reaching(InRunShape shape, const TakeOff& take_off);
@@ -72,7 +73,8 @@ struct LetterBounds {
 ///   problem for the profile; the shape of the load is ours.
 /// @param shape        its r1, length and transition are not asked
 /// @param radial_load  the v^2/radius that is kept [m/s^2]; > 0
-/// @throws as reaching()
+/// @throws as reaching(), InputError if the load is not finite and positive, or gives no bend for the speeds at E1:
+///   one shorter than 0.001 mm, or one that the body stops in
 [[nodiscard]] ClothoidSpline load_controlled_in_run(const InRunShape& shape, double radial_load,
                                                     const TakeOff& take_off);
 
