@@ -70,6 +70,22 @@ TEST_CASE("elementary functions keep the accuracy that is stated") {
   CHECK_FUNCTION(cbrt, -5.0, 5.0);
 }
 
+TEST_CASE("hyperbolic functions keep their accuracy up to where their value ends to be a number") {
+  constexpr double kLast = 710.475860073943;  // acosh of the largest double, rounded down
+  CHECK_FUNCTION(sinh, 700.0, kLast);
+  CHECK_FUNCTION(sinh, -kLast, -709.7);
+  CHECK_FUNCTION(cosh, 709.7, kLast);
+  CHECK_FUNCTION(asinh, 1e150, 1e155);
+  CHECK_FUNCTION(asinh, -1e300, -1e155);
+  CHECK_FUNCTION(asinh, 1e307, std::numeric_limits<double>::max());
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(math::sinh(711.0) == infinity);
+  CHECK(math::sinh(-711.0) == -infinity);
+  CHECK(math::cosh(-infinity) == infinity);
+  CHECK(math::asinh(-infinity) == -infinity);
+  CHECK(std::isnan(math::sinh(std::numeric_limits<double>::quiet_NaN())));
+}
+
 TEST_CASE("elementary functions of two numbers keep the accuracy that is stated") {
   testing::Random random = testing::seeded_random();
   double largest_atan2 = 0.0;

@@ -6,10 +6,38 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include <sleef.h>
 
 namespace glissade::math {
+namespace {
+
+/// @return exp(value)/2, where exp(value) itself may be beyond the largest double and half of it is not
+double half_exponential(double value) {
+  // theory: exp(710)/2 as the sum of two doubles
+  constexpr double kMiddle = 710.0;
+  constexpr double kHalf = 0x1.3e21a464507f9p+1023;
+  constexpr double kHalfRest = 0x1.282b80dc02e26p+969;
+  const double growth = expm1(value - kMiddle);
+  const double more = kHalf * growth;
+  const double sum = kHalf + more;
+  if (!std::isfinite(sum)) return sum;
+  const double rest = more - (sum - kHalf);
+  return sum + (rest + (std::fma(kHalf, growth, -more) + kHalfRest));
+}
+
+/// @return log(2 value) of a large finite value
+double logarithm_of_double(double value) {
+  constexpr double kTopBinade = 0x1p1023;
+  if (value < kTopBinade) return log(2.0 * value);
+  // theory: 1024 ln 2 as the sum of two doubles
+  constexpr double kBits = 0x1.62e42fefa39efp+9;
+  constexpr double kBitsRest = 0x1.abc9e3b39803fp-46;
+  return kBits + (log(value / kTopBinade) + kBitsRest);
+}
+
+}  // namespace
 
 double sin(double angle) {
   return sine_cosine(angle).sine;
@@ -49,11 +77,16 @@ double cos_pi(double turns) {
 }
 
 double sinh(double value) {
-  return Sleef_cinz_sinhd1_u10purec(value);
+  const double sine = Sleef_cinz_sinhd1_u10purec(value);
+  // SLEEF's exponential overflows before its half does.
+  if (!std::isinf(sine) || std::isinf(value)) return sine;
+  return std::copysign(half_exponential(std::fabs(value)), value);
 }
 
 double cosh(double value) {
-  return Sleef_cinz_coshd1_u10purec(value);
+  const double cosine = Sleef_cinz_coshd1_u10purec(value);
+  if (!std::isinf(cosine) || std::isinf(value)) return cosine;
+  return half_exponential(std::fabs(value));
 }
 
 double tanh(double value) {
@@ -61,7 +94,10 @@ double tanh(double value) {
 }
 
 double asinh(double value) {
-  return Sleef_cinz_asinhd1_u10purec(value);
+  const double angle = Sleef_cinz_asinhd1_u10purec(value);
+  // SLEEF's square of it overflows.
+  if (!std::isinf(angle) || std::isinf(value)) return angle;
+  return std::copysign(logarithm_of_double(std::fabs(value)), value);
 }
 
 double exp(double value) {
