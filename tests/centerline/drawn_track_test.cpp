@@ -176,6 +176,11 @@ TEST_CASE(
     CHECK(same->length == Approx(arc->length).epsilon(1e-12));
   }
   CHECK_FALSE(arc_to({-1.0, 0.0}, Angle()));
+  for (const Vec2 way : {Vec2{std::nan(""), 0.0}, Vec2{1.0, HUGE_VAL}, Vec2{}}) {
+    CHECK_THROWS_AS(arc_to(way, Angle()), InputError);
+    CHECK_THROWS_AS(clothoid_to(way, Angle(), Angle()), InputError);
+  }
+  CHECK_THROWS_AS(arc_to({1.0, 0.0}, Angle::from_radians(std::nan(""))), InputError);
   CHECK(arc_to({2.0, 0.0}, Angle()) == ClothoidSegment{2.0, 0.0, 0.0});
   CHECK_FALSE(clothoid_to({1.0, 0.0}, Angle::from_degrees(170.0), Angle()));
 }

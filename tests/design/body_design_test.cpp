@@ -6,6 +6,7 @@
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <string>
 
 using namespace glissade;
@@ -153,4 +154,10 @@ TEST_CASE("air density: the standard atmosphere") {
   CHECK(air_density(5000.0, standard_temperature(5000.0)) == Approx(0.73612).epsilon(1e-4));
   CHECK(air_density(11000.0, standard_temperature(11000.0)) == Approx(0.3639).epsilon(1e-3));
   CHECK(air_density(0.0, 273.15) == Approx(1.2923).epsilon(1e-4));
+  for (const double altitude : {-501.0, 11001.0, std::nan("")}) {
+    CHECK_THROWS_AS(standard_temperature(altitude), InputError);
+    CHECK_THROWS_AS(air_density(altitude, 273.15), InputError);
+  }
+  for (const double temperature : {0.0, -1.0, std::nan("")})
+    CHECK_THROWS_AS(air_density(0.0, temperature), InputError);
 }

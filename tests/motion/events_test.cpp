@@ -261,6 +261,16 @@ TEST_CASE("Motion says which number of the body it cannot use") {
   CHECK_THROWS_WITH(Motion(ramp, body(0.1, 0.0), 0.0), Catch::Matchers::Contains("gravity: 0 m/s^2"));
   CHECK_THROWS_WITH(Motion(ramp, body(0.1, 0.0), std::nan("")), Catch::Matchers::Contains("gravity: nan"));
   CHECK_THROWS_AS(Motion(nullptr, body(0.1, 0.0)), InputError);
+  Body patchy = body(0.1, 0.0);
+  const Friction other = Friction::from_coefficient(0.2);
+  for (const double second : {0.5, 0.4, std::nan("")}) {
+    patchy.friction_changes = {{0.5, other}, {second, patchy.friction}};
+    CHECK_THROWS_WITH(Motion(ramp, patchy), Catch::Matchers::Contains("friction_changes: "));
+  }
+  patchy.friction_changes = {{0.0, other}, {0.0, patchy.friction}};
+  CHECK_THROWS_WITH(Motion(ramp, patchy), Catch::Matchers::Contains("friction_changes: 0 m after 0 m"));
+  patchy.friction_changes = {{0.0, other}, {0.5, patchy.friction}};
+  CHECK_NOTHROW(Motion(ramp, patchy));
 }
 
 }  // namespace events_test

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,7 +138,19 @@ CenterlinePtr joined(Angle entry_slope_angle, const std::vector<TrackSegment>& s
   return std::make_shared<ClothoidSpline>(entry_slope_angle, std::move(clothoids));
 }
 
+namespace {
+
+void require_way(Vec2 way, Angle entry) {
+  if (std::isfinite(way.x) && std::isfinite(way.y) && way != Vec2{} && std::isfinite(entry.radians())) return;
+  throw InputError(
+      {"", "way: " + exact_text(way.x) + " m by " + exact_text(way.y) + " m, entered at " + angle_text(entry),
+       "It is finite, its slope angle too, and leads to another place.", ""});
+}
+
+}  // namespace
+
 std::optional<ClothoidSegment> arc_to(Vec2 way, Angle entry) {
+  require_way(way, entry);
   const double chord = math::hypot(way.x, way.y);
   // Between tangent and chord there is half the angle that an arc turns by.
   const double half_turn = wrapped(entry.radians() - math::atan2(way.y, way.x));
@@ -153,6 +166,7 @@ std::optional<ClothoidSegment> arc_to(Vec2 way, Angle entry) {
 // share s of the length, delta = theta_1 - theta_0. It ends on the chord where Int sin theta ds = 0, one equation for A;
 // the chord over the length is Int cos theta ds.
 std::optional<ClothoidSegment> clothoid_to(Vec2 way, Angle entry, Angle exit) {
+  require_way(way, entry);
   using Rule = boost::math::quadrature::gauss<double, 30>;
   constexpr double kFarthest = 0.75 * std::numbers::pi;
   const double chord = math::hypot(way.x, way.y);

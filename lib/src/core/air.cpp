@@ -1,6 +1,8 @@
 #include "glissade/core/air.hpp"
 
+#include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 
 #include <cmath>
 
@@ -17,10 +19,21 @@ constexpr double kAtmosphereGravity = 9.80665;   // of the definition [m/s^2]
 }  // namespace
 
 double standard_temperature(double altitude) {
+  if (!(altitude >= kLowestAltitude && altitude <= kHighestAltitude)) {
+    throw InputError({"", "altitude: " + exact_text(altitude) + " m is out of range",
+                      "The standard atmosphere is known from " + rounded_text(kLowestAltitude, 3) + " m to " +
+                          rounded_text(kHighestAltitude, 5) + " m above sea level, below its tropopause.",
+                      "1200 m for a hill in the mountains"});
+  }
   return kSeaLevelTemperature - kLapseRate * altitude;
 }
 
 double air_density(double altitude, double temperature) {
+  if (!(std::isfinite(temperature) && temperature > 0.0)) {
+    throw InputError({"",
+                      "temperature: " + exact_text(temperature) + " K is not a finite temperature above 0",
+                      "It counts from absolute zero.", "288.15 K, 15 degC"});
+  }
   constexpr double kExponent = kAtmosphereGravity / (kGasConstant * kLapseRate);
   const double pressure =
       kSeaLevelPressure * math::pow(standard_temperature(altitude) / kSeaLevelTemperature, kExponent);

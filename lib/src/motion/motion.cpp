@@ -33,11 +33,13 @@ void require_body(const Body& body, double gravity) {
   require(std::isfinite(body.head_wind), "head_wind: " + exact_text(body.head_wind) + " m/s is not finite",
           "Wind along the track, against the motion where positive.");
   double before = 0.0;
+  bool first = true;
   for (const FrictionChange& change : body.friction_changes) {
-    require(change.from >= before && std::isfinite(change.from),
+    require((change.from > before || (first && change.from == before)) && std::isfinite(change.from),
             "friction_changes: " + exact_text(change.from) + " m after " + exact_text(before) + " m",
             "The places from which on friction changes are finite and ascend.");
     before = change.from;
+    first = false;
   }
   require(gravity > 0.0 && std::isfinite(gravity),
           "gravity: " + exact_text(gravity) + " m/s^2 is not a finite number larger than 0",

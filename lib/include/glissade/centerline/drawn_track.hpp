@@ -82,6 +82,7 @@ inline constexpr double kDrawnTrackAccuracy = 1e-14;
 /// The one arc that leaves tangentially and passes a place; a straight where the place lies straight ahead.
 /// @param way    (run, drop) from where it begins to where it ends [m]; not (0, 0)
 /// @param entry  slope angle where it begins
+/// @throws InputError if the way or the entry is not finite, or the way is (0, 0)
 /// @return it; none where the place lies straight behind. It turns by twice the angle between tangent and way
 [[nodiscard]] std::optional<ClothoidSegment> arc_to(Vec2 way, Angle entry);
 
@@ -92,6 +93,7 @@ inline constexpr double kDrawnTrackAccuracy = 1e-14;
 /// @param way    as of arc_to()
 /// @param entry  slope angle where it begins
 /// @param exit   slope angle where it ends; both differ from the direction of the way by less than 135 deg
+/// @throws InputError as arc_to()
 /// @return the one that winds least; none if a slope angle differs by more, or no clothoid was found
 [[nodiscard]] std::optional<ClothoidSegment> clothoid_to(Vec2 way, Angle entry, Angle exit);
 
