@@ -30,9 +30,9 @@ constexpr const char* kCommandLineFooter =
     "  glissade compare chute.yaml                               every kind of centerline side by side\n"
     "  glissade plot chute.yaml -o chute.svg                     profile, speed, load, ... as a picture\n"
     "\n"
-    "Exit codes: 0 done; 1 the inspected mesh is faulty; 2 wrong usage or design; 3 infeasible, or the\n"
-    "body does not arrive; 4 not converged; 5 a file cannot be read or written; 70 a defect of Glissade;\n"
-    "130 interrupted.\n"
+    "Exit codes: 0 done; 1 what was looked at is faulty: a mesh, a survey, a rule; 2 wrong usage or design;\n"
+    "3 infeasible, or the body does not arrive; 4 not converged; 5 a file cannot be read or written;\n"
+    "70 a defect of Glissade; 130 interrupted.\n"
     "'glissade help COMMAND' tells more about a command.";
 
 }  // namespace
