@@ -463,6 +463,49 @@ TEST_CASE("stream: it chokes where it grows as deep as its wall or its chute is 
   CHECK(narrowed.distance() < 2.0);
 }
 
+TEST_CASE("the greatest of anything along a ride is found on both sides of each jump, and between samples") {
+  auto random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 40; ++i) {
+    // Bends between straights: the load is greatest where one of them begins, ends, or in between.
+    const double radius = random.between(0.4, 2.0);
+    const double bend = radius * random.between(0.02, 0.6);
+    const double knot = random.between(0.1, 4.0);
+    const auto bent =
+        track(random.between(70.0, 85.0) * kDegree,
+              {{random.between(0.01, 1.0), 0.0, 0.0}, {bend, 1.0 / radius, 1.0 / radius}, {4.0, 0.0, 0.0}});
+    StreamShape shape{30.0, 1500.0, 0.5, WidthLaw({{0.0, 0.5}, {knot, 0.4}, {5.0, 0.45}}), {}};
+    const auto law = std::make_shared<const BulkStream>(shape);
+    Body fed = body(0.3, random.between(1.0, 4.0), law);
+    fed.friction_changes = {{random.between(0.1, 4.0), Friction::from_coefficient(0.25)}};
+    const Motion motion(bent, fed, kGravity);
+    REQUIRE(motion.arrived());
+    const auto wear = [&](const LawState& at) {
+      return at.friction * at.normal_load / law->width(at.arc_length);
+    };
+    const std::vector<double> breaks = motion.breaks();
+    double most = 0.0;
+    double sum = 0.0;
+    for (std::size_t k = 1; k < breaks.size(); ++k) {
+      // Of the last place before a break the values before it hold; Simpson's rule within.
+      const double from = breaks[k - 1];
+      const double to = std::nextafter(breaks[k], from);
+      constexpr int kSteps = 400;
+      for (int j = 0; j <= kSteps; ++j) {
+        const double value = wear(motion.law_state(std::min(to, from + (to - from) * j / kSteps)));
+        most = std::max(most, value);
+        sum += value * (j == 0 || j == kSteps ? 1.0 : j % 2 == 1 ? 4.0 : 2.0) / 3.0 * (to - from) / kSteps;
+      }
+    }
+    const QuantityPeak peak = motion.highest(wear);
+    CHECK(peak.value >= most * (1.0 - 1e-9));
+    CHECK(peak.value <= most * (1.0 + 1e-5));
+    CHECK(motion.mean(wear) == Approx(sum / motion.distance()).epsilon(1e-9));
+    const auto load = [](const LawState& at) { return at.normal_load; };
+    CHECK(motion.highest(load).value == Approx(motion.highest_load().normal_load).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("laws: the same ride in other units") {
   auto random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

@@ -86,6 +86,7 @@ struct Found {
   const Panel* panel = nullptr;
   double sigma = 0.0;
   double value = std::numeric_limits<double>::infinity();
+  std::optional<std::size_t> node = {};  ///< none: between two
 };
 
 double node_sigma(const Panel& panel, std::size_t node) {
@@ -98,9 +99,8 @@ Found least_node(const std::vector<Panel>& panels, const Values& values) {
   Found least{&panels.front()};
   for (const Panel& panel : panels) {
     const chebyshev::Values f = values(panel);
-    const auto node = std::min_element(f.begin(), f.end());
-    if (*node < least.value)
-      least = {&panel, node_sigma(panel, static_cast<std::size_t>(node - f.begin())), *node};
+    const auto node = static_cast<std::size_t>(std::min_element(f.begin(), f.end()) - f.begin());
+    if (f[node] < least.value) least = {&panel, node_sigma(panel, node), f[node], node};
   }
   return least;
 }
@@ -126,7 +126,7 @@ Found least_anywhere(const std::vector<Panel>& panels, const Values& values, con
           [&](double at) { return evaluate(panel, at); }, node_sigma(panel, before), node_sigma(panel, after),
           kHalfOfDigits, iterations);
       const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::fabs(least.value);
-      if (value < least.value - rounding) least = {&panel, sigma, value};
+      if (value < least.value - rounding) least = {&panel, sigma, value, {}};
     }
   }
   return least;
@@ -154,6 +154,8 @@ class Motion::Ride {
   [[nodiscard]] MotionState highest_speed() const;
   [[nodiscard]] LawState law_state(const MotionState& state) const;
   [[nodiscard]] QuantityPeak highest(std::size_t index) const;
+  [[nodiscard]] QuantityPeak highest(const Quantity& searched, const Quantity& told) const;
+  [[nodiscard]] double mean(const Quantity& quantity) const;
 
  private:
   [[nodiscard]] const Equation& equation() const { return record_.equation; }
@@ -227,22 +229,54 @@ MotionState Motion::Ride::highest_speed() const {
 
 LawState Motion::Ride::law_state(const MotionState& state) const {
   const double s = state.arc_length;
-  const Direction direction = centerline_->direction(s);
-  const double v = state.speed * state.speed;
-  return {
-      .arc_length = s,
-      .slope_angle = direction.slope_angle,
-      .curvature = direction.curvature,
-      .v = v,
-      .normal_load = state.normal_load,
-      .friction = equation().friction_at(s),
-      .drive = equation().gravity * math::sin(direction.slope_angle) - equation().k * equation().dragged(v)};
+  return equation().law_state(s, centerline_->direction(s), state.speed * state.speed, state.normal_load,
+                              equation().friction_at(s));
+}
+
+/// @param searched  grows with the quantity, and is as smooth
+/// @param told      the quantity
+QuantityPeak Motion::Ride::highest(const Quantity& searched, const Quantity& told) const {
+  const LawState end = law_state(record_.end);
+  if (record_.panels.empty()) return {told(end), end.arc_length, {}};
+  const Found found = least_anywhere(
+      record_.panels,
+      [&](const Panel& panel) {
+        chebyshev::Values values;
+        for (std::size_t i = 0; i < chebyshev::kNodes; ++i)
+          values[i] = -searched(panel.law_state_at(equation(), i));
+        return values;
+      },
+      [&](const Panel& panel, double sigma) { return -searched(panel.law_state(equation(), sigma)); });
+  // Where a law ends a ride, what ends it is at its bound: beyond what panels tell (Law::bound_v()).
+  if (record_.law_end && searched(end) > -found.value) return {told(end), end.arc_length, {}};
+  const LawState state = found.node ? found.panel->law_state_at(equation(), *found.node)
+                                    : found.panel->law_state(equation(), found.sigma);
+  return {told(state), state.arc_length, {}};
+}
+
+double Motion::Ride::mean(const Quantity& quantity) const {
+  if (record_.panels.empty()) return quantity(law_state(record_.end));
+  double sum = 0.0;
+  for (const Panel& panel : record_.panels) {
+    chebyshev::Values values;
+    for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+      values[i] =
+          quantity(panel.law_state_at(equation(), i)) * panel.stretch.stretching(node_sigma(panel, i));
+    }
+    if (!std::isfinite(values[0])) values[0] = chebyshev::extrapolated_to_zero(values);
+    sum += panel.stretch.width * chebyshev::running_mean(values).back();
+  }
+  return sum / record_.end.arc_length;
 }
 
 QuantityPeak Motion::Ride::highest(std::size_t index) const {
-  const auto value_at = [&](double s) { return body_.law->quantity(index, law_state(at(s))); };
+  const auto told = [&](const LawState& state) { return body_.law->quantity(index, state); };
   // Infinite values are told apart by no search: it goes by a value that stays finite.
-  const auto finite_at = [&](double s) { return math::atan(value_at(s)); };
+  const auto finite = [&](const LawState& state) { return math::atan(told(state)); };
+  QuantityPeak peak = highest(finite, told);
+  const std::optional<double> bound = body_.law->quantities().at(index).highest;
+  if (!bound || !(peak.value > *bound)) return peak;
+  const auto finite_at = [&](double s) { return finite(law_state(at(s))); };
   std::vector<double> places;
   for (const Panel& panel : record_.panels) {
     for (std::size_t i = 0; i + 1 < chebyshev::kNodes; i += 2) {
@@ -256,20 +290,6 @@ QuantityPeak Motion::Ride::highest(std::size_t index) const {
   places.push_back(record_.end.arc_length);
   std::vector<double> values;
   for (const double s : places) values.push_back(finite_at(s));
-  const auto highest =
-      static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
-  QuantityPeak peak{value_at(places[highest]), places[highest], {}};
-  const double from = places[highest == 0 ? 0 : highest - 1];
-  const double to = places[std::min(highest + 1, places.size() - 1)];
-  if (from < to && std::isfinite(peak.value)) {
-    std::uintmax_t iterations = 60;
-    const auto [s, value] =
-        boost::math::tools::brent_find_minima([&](double at) { return -finite_at(at); }, from, to,
-                                              std::numeric_limits<double>::digits / 2, iterations);
-    if (-value > values[highest]) peak = {value_at(s), s, {}};
-  }
-  const std::optional<double> bound = body_.law->quantities().at(index).highest;
-  if (!bound || !(peak.value > *bound)) return peak;
   const double limit = math::atan(*bound);
   std::size_t first = 0;
   while (first + 1 < places.size() && values[first] <= limit) ++first;
@@ -303,6 +323,13 @@ bool is_sliding_point(const Body& body) {
                                    !body.law->depends_on_speed() && body.law->side() == 1.0);
   const bool calm = body.head_wind == 0.0 || body.drag_per_metre == 0.0;
   return point && calm && body.friction_changes.empty() && !body.landing && !body.approach;
+}
+
+bool lands(const Motion& motion) {
+  const std::optional<Landing>& landing = motion.body().landing;
+  constexpr double kRounding =
+      1e-9;  // rounding, of a search that leads its track along the way of the feed [rad]
+  return !landing || motion.centerline().slope_angle(0.0) <= landing->angle.radians() + kRounding;
 }
 
 Friction least_friction(const Body& body) {
@@ -394,14 +421,34 @@ std::vector<LawQuantity> Motion::quantities() const {
   return body().law ? body().law->quantities() : std::vector<LawQuantity>{};
 }
 
+LawState Motion::law_state(double s) const {
+  return ride_->law_state(at(s));
+}
+
 double Motion::quantity(std::size_t index, double s) const {
   require_quantity(*this, index);
-  return body().law->quantity(index, ride_->law_state(at(s)));
+  return body().law->quantity(index, law_state(s));
 }
 
 QuantityPeak Motion::highest(std::size_t index) const {
   require_quantity(*this, index);
   return ride_->highest(index);
+}
+
+QuantityPeak Motion::highest(const Quantity& quantity) const {
+  return ride_->highest(quantity, quantity);
+}
+
+double Motion::mean(const Quantity& quantity) const {
+  return ride_->mean(quantity);
+}
+
+std::vector<double> Motion::breaks() const {
+  std::vector<double> places = breaks_of(ride_->record().equation);
+  std::erase_if(places, [&](double s) { return s >= distance(); });
+  places.push_back(distance());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
 }
 
 }  // namespace glissade

@@ -61,6 +61,17 @@ double Equation::resistance(double s, double v) const {
   return law == nullptr ? 1.0 : law->resistance(s, v).factor;
 }
 
+LawState Equation::law_state(double s, const Direction& direction, double v, double normal_load,
+                             double friction) const {
+  return {.arc_length = s,
+          .slope_angle = direction.slope_angle,
+          .curvature = direction.curvature,
+          .v = v,
+          .normal_load = normal_load,
+          .friction = friction,
+          .drive = gravity * math::sin(direction.slope_angle) - k * dragged(v)};
+}
+
 double Equation::dragged(double v) const {
   if (head_wind == 0.0) return v;
   const double air_speed = std::sqrt(std::max(0.0, v)) + head_wind;
@@ -308,6 +319,18 @@ double Panel::v_at(const Equation& equation, double sigma) const {
 double Panel::load_at(const Equation& equation, double sigma) const {
   const Direction direction = direction_within(equation, stretch, stretch.arc_length(sigma));
   return equation.load(direction, v_for(equation, sigma, direction.slope_angle));
+}
+
+LawState Panel::law_state(const Equation& equation, double sigma) const {
+  const double s = stretch.arc_length(sigma);
+  const Direction direction = direction_within(equation, stretch, s);
+  const double squared_speed = v_for(equation, sigma, direction.slope_angle);
+  return equation.law_state(s, direction, squared_speed, equation.load(direction, squared_speed), friction);
+}
+
+LawState Panel::law_state_at(const Equation& equation, std::size_t node) const {
+  const double s = stretch.arc_length(stretch.width * chebyshev::nodes()[node]);
+  return equation.law_state(s, direction_within(equation, stretch, s), v[node], load[node], friction);
 }
 
 double Panel::path_rate_at(const Equation& equation, double sigma) const {

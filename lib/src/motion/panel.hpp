@@ -48,6 +48,9 @@ struct Equation {
   [[nodiscard]] double load(const Direction& direction, double v) const;
   /// @return c/mu
   [[nodiscard]] double resistance(double s, double v) const;
+  /// @return the body at s, for callers who know what it weighs and rubs there
+  [[nodiscard]] LawState law_state(double s, const Direction& direction, double v, double normal_load,
+                                   double friction) const;
   /// @return D(v): drag over k
   [[nodiscard]] double dragged(double v) const;
   /// Losses are sums of c N over this: mu alone where it is the same everywhere.
@@ -148,6 +151,10 @@ struct Panel {
     return chebyshev::Interpolation(sigma / stretch.width);
   }
   [[nodiscard]] double load_at(const Equation& equation, double sigma) const;
+  /// @return the body at sigma; at an end of the panel as seen from within it
+  [[nodiscard]] LawState law_state(const Equation& equation, double sigma) const;
+  /// @return the body at a node
+  [[nodiscard]] LawState law_state_at(const Equation& equation, std::size_t node) const;
   /// @return ds_c/ds at sigma
   [[nodiscard]] double path_rate_at(const Equation& equation, double sigma) const;
   /// @return w, scaled by the weight at the anchor

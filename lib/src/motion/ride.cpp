@@ -146,7 +146,6 @@ class Integrator {
 
   [[nodiscard]] const Equation& equation() const { return record_.equation; }
   [[nodiscard]] bool starts();
-  [[nodiscard]] std::vector<double> breaks() const;
   [[nodiscard]] Direction direction(double s) const { return equation().centerline->direction(s); }
   [[nodiscard]] Stretch first_stretch(double end) const;
   void slide(const Stretch& whole, int halvings);
@@ -179,7 +178,7 @@ class Integrator {
 
 RideRecord Integrator::run() {
   if (!starts()) return std::move(record_);
-  const std::vector<double> breaks = this->breaks();
+  const std::vector<double> breaks = breaks_of(equation());
   panels_left_ = kMostPanels + 100 * breaks.size();
   int halvings = 0;
   while ((breaks.size() - 1) << static_cast<unsigned>(halvings) < kLeastPanels) ++halvings;
@@ -189,18 +188,6 @@ RideRecord Integrator::run() {
   }
   if (!ended_) close(length_, v_);
   return std::move(record_);
-}
-
-std::vector<double> Integrator::breaks() const {
-  std::vector<double> breaks = equation().centerline->breaks();
-  std::vector<double> others;
-  if (equation().law != nullptr) others = equation().law->breaks();
-  for (const FrictionChange& change : equation().changes) others.push_back(change.from);
-  if (others.empty()) return breaks;
-  std::erase_if(others, [&](double s) { return !(s > 0.0 && s < length_); });
-  breaks.insert(breaks.end(), others.begin(), others.end());
-  std::sort(breaks.begin(), breaks.end());
-  return breaks;
 }
 
 bool Integrator::starts() {
@@ -451,14 +438,20 @@ void Integrator::end_in_valley(double s) {
 }
 
 void Integrator::end_law(double s) {
-  close(s, v_);
   const Law& law = *equation().law;
+  const double bound_v = law.bound_v(s);
+  if (bound_v < law.least_v(s) && bound_v < v_) {
+    // What is left of the speed is rubbed off within micrometres.
+    const double friction = equation().loss_friction();
+    if (friction > 0.0) sums_.load += (v_ - bound_v) / (equation().gain * friction);
+    v_ = bound_v;
+  }
+  close(s, v_);
   const std::size_t index = law.ending_quantity();
   const auto value_at = [&](double v) {
     return law.quantity(index, {.arc_length = s, .v = v, .friction = equation().friction_at(s)});
   };
-  record_.law_end =
-      LawEnd{law.quantities()[index].key, s, std::sqrt(v_), value_at(v_), value_at(law.least_v(s))};
+  record_.law_end = LawEnd{law.quantities()[index].key, s, std::sqrt(v_), value_at(v_), value_at(bound_v)};
 }
 
 void Integrator::close(double s, double v) {
@@ -492,6 +485,18 @@ Panel Integrator::integrated(const Stretch& stretch, double v) {
 }
 
 }  // namespace
+
+std::vector<double> breaks_of(const Equation& equation) {
+  std::vector<double> breaks = equation.centerline->breaks();
+  std::vector<double> others;
+  if (equation.law != nullptr) others = equation.law->breaks();
+  for (const FrictionChange& change : equation.changes) others.push_back(change.from);
+  if (others.empty()) return breaks;
+  std::erase_if(others, [&](double s) { return !(s > 0.0 && s < equation.centerline->length()); });
+  breaks.insert(breaks.end(), others.begin(), others.end());
+  std::sort(breaks.begin(), breaks.end());
+  return breaks;
+}
 
 RideRecord ride_down(const Equation& equation, double entry_speed) {
   return Integrator(equation, entry_speed).run();

@@ -20,6 +20,9 @@ struct RideRecord {
   MotionState end;  ///< the state at the end of the ride
 };
 
+/// @return ascending places between which the equation is smooth, from 0 to the length of the track; some may be there twice
+[[nodiscard]] std::vector<double> breaks_of(const Equation& equation);
+
 /// Integrates the energy equation down the track, up to the finish, a stall or a lift-off.
 /// @throws ConvergenceError if the track is so rough between its breaks that panels without number would be
 /// needed

@@ -104,7 +104,10 @@ class Law {
 
   /// Squared speed at and below which the ride ends, because a quantity is beyond its bound; 0 if none does.
   [[nodiscard]] virtual double least_v(double s) const;
-  /// @return the quantity that is at its bound where v is least_v()
+  /// Squared speed at which the quantity is at its bound: least_v(), or less where the ride ends a little before, with no way
+  /// left that would count.
+  [[nodiscard]] virtual double bound_v(double s) const { return least_v(s); }
+  /// @return the quantity that is at its bound where v is bound_v()
   [[nodiscard]] virtual std::size_t ending_quantity() const { return 0; }
 
   /// The same law on a track that is the rest of this one.

@@ -5,6 +5,7 @@
 #include "glissade/motion/law.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -173,6 +174,9 @@ class Motion {
   /// @return the body there; at a jump of curvature with the load just after it
   /// @throws InputError if s lies outside the ride
   [[nodiscard]] MotionState at(double s) const;
+  /// @param s  as for at()
+  /// @return what a law's quantities are computed from there
+  [[nodiscard]] LawState law_state(double s) const;
   /// @param stations  ascending arc lengths, each as for at()
   [[nodiscard]] std::vector<MotionState> at(const std::vector<double>& stations) const;
 
@@ -182,13 +186,30 @@ class Motion {
   /// @param s      as for at()
   /// @return its value there
   [[nodiscard]] double quantity(std::size_t index, double s) const;
-  /// @return its highest value over the ride, to 1e-9 relative where it is smooth, and its place
+  /// @return its highest value over the ride, to 1e-9 relative, and its place: as for a quantity that is given
   [[nodiscard]] QuantityPeak highest(std::size_t index) const;
+
+  /// A value of the body at a place: of a law_state() within the ride.
+  using Quantity = std::function<double(const LawState&)>;
+  /// The one way to the greatest value of anything along a ride; of the least one the quantity's negative. It is looked
+  /// for between all samples, and on both sides of each place where curvature, friction or the law changes.
+  /// @param quantity  smooth in between
+  /// @return its highest value, to 1e-9 relative, and its place; of two alike the first
+  [[nodiscard]] QuantityPeak highest(const Quantity& quantity) const;
+  /// @param quantity  as for highest()
+  /// @return its mean over the way, to 1e-9 of its largest size; its value at the start of a ride without one
+  [[nodiscard]] double mean(const Quantity& quantity) const;
+  /// @return ascending places between which the ride is smooth, from 0 to distance() [m]
+  [[nodiscard]] std::vector<double> breaks() const;
 
  private:
   class Ride;
   std::shared_ptr<const Ride> ride_;
 };
+
+/// @return whether what comes down on the start of its track meets it: the floor there is no steeper than its way. What
+///         does not flies over the start, and its ride stands for nothing; true of a body without a Landing
+[[nodiscard]] bool lands(const Motion& motion);
 
 /// Stated bound of the relative error of Motion's speeds and times, measured in docs/accuracy.md.
 inline constexpr double kMotionAccuracy = 1e-10;

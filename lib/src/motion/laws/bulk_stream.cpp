@@ -82,10 +82,18 @@ double BulkStream::quantity(std::size_t index, const LawState& state) const {
 }
 
 double BulkStream::least_v(double s) const {
+  return std::max(bound_v(s), shape_.least_speed * shape_.least_speed);
+}
+
+double BulkStream::bound_v(double s) const {
   const double wide = width(s);
-  const double deepest = std::min(wide, shape_.wall_height.value_or(wide));
-  const double speed = std::max(flow_ / (wide * deepest), shape_.least_speed);
+  const double speed = flow_ / (wide * deepest(s));
   return speed * speed;
+}
+
+double BulkStream::deepest(double s) const {
+  const double wide = width(s);
+  return std::min(wide, shape_.wall_height.value_or(wide));
 }
 
 LawPtr BulkStream::from(double s) const {

@@ -18,8 +18,9 @@ struct StreamShape {
   std::optional<double> wall_height = {};  ///< inside [m]; > 0; none: no wall to spill over
   /// K_c: speed at the floor over the mean speed; > 0, at most 1. It decides wear, not motion.
   double slip_ratio = 0.6;
-  /// Slower than this a stream stands, however thin it is [m/s]; > 0. Without it a stream of next to nothing would
-  /// change its law within less than the last digit of a place.
+  /// Slower than this a stream is taken to be choking [m/s]; > 0. One of so small a flow that it is not yet as deep as that
+  /// is so within micrometres: it slows down, and rubs the more the deeper it is. Without this it would change its law within
+  /// less than the last digit of a place.
   double least_speed = 1e-3;
   /// It runs on the concave underside of a hood, pressed outwards, instead of on a floor.
   bool underside = false;
@@ -31,8 +32,8 @@ struct StreamShape {
 /// c = mu (1 + K_v H/B). Body::friction is the wall friction of floor and side walls.
 /// Source: Roberts 1969, Roberts & Scott 1981, Roberts 2003; docs/theory.md, laws of motion.
 /// Domain: H < B. Where the stream grows deeper than its chute is wide, or than its wall, it chokes and the
-///   ride ends: quantity 0. It ends, too, where the stream stands: slower than StreamShape::least_speed, its
-///   depth then below what chokes it. It must enter with speed, since a stream at rest is infinitely deep.
+///   ride ends: quantity 0. A stream that slows down chokes before it would stand. It must enter with speed, since a
+///   stream at rest is infinitely deep.
 /// Quantities: 0 "burden_depth" H [m]; 1 "equivalent_friction" c.
 class BulkStream final : public Law {
  public:
@@ -48,6 +49,8 @@ class BulkStream final : public Law {
   [[nodiscard]] double width(double s) const;
   /// @return dB/ds at s; that after the place where it changes there
   [[nodiscard]] double width_slope(double s) const;
+  /// @return the H that chokes it at s: the height of its wall, or the width where that is less [m]
+  [[nodiscard]] double deepest(double s) const;
   /// @return H at s for a speed [m]
   [[nodiscard]] double depth(double s, double speed) const;
   /// W_c = Q K_c mu N/B: rubbing power per area of the floor [W/m^2]; Roberts' abrasive wear factor
@@ -63,6 +66,7 @@ class BulkStream final : public Law {
   [[nodiscard]] std::vector<LawQuantity> quantities() const override;
   [[nodiscard]] double quantity(std::size_t index, const LawState& state) const override;
   [[nodiscard]] double least_v(double s) const override;
+  [[nodiscard]] double bound_v(double s) const override;
   [[nodiscard]] LawPtr from(double s) const override;
   [[nodiscard]] LawPtr in_units(double length, double speed) const override;
 
