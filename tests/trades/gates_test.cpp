@@ -150,6 +150,16 @@ TEST_CASE("gates fill the start area evenly, or follow each other by a step from
   CHECK(stepped.back().from_start == Approx(24.0 - 34 * 0.7).epsilon(1e-12));
   CHECK(stepped_gates(102.9, 24.0, 0.5).size() == 49);
   CHECK(stepped_gates(102.9, 24.0, 0.5).back().from_start == 0.0);
+  // 23.1 times 24 over 24 is 3.6e-15 more than 23.1.
+  CHECK(even_gates(102.9, 23.1, 25).back().from_start == 0.0);
+  for (int count = 2; count < 80; ++count) {
+    for (int tenth = 1; tenth < 600; ++tenth) {
+      const std::vector<Gate> gates = even_gates(102.9, 0.1 * tenth, count);
+      REQUIRE(gates.back().from_start == 0.0);
+      REQUIRE(gates.back().to_edge == 102.9);
+      REQUIRE(gates.front().from_start == 0.1 * tenth);
+    }
+  }
   CHECK_THROWS_WITH(even_gates(20.0, 24.0, 3),
                     Contains("the start area, 24 m, does not fit an in-run of 20 m"));
   CHECK_THROWS_AS(stepped_gates(102.9, 24.0, 0.0), InputError);

@@ -22,48 +22,20 @@ void require_area(double length, double start_area) {
        "Gates lie between the start of the track and its edge.", "a shorter start area"});
 }
 
+/// A gate at an end of the start area within rounding lies there: next to the start of the track, at the start.
 Gate gate_at(int number, double from_start, double length) {
-  return {number, from_start, length - from_start};
+  constexpr double kRounding = 1e-12;  // rounding, of the length of the track
+  const double place = from_start > kRounding * length ? from_start : 0.0;
+  return {number, place, length - place};
 }
 
-/// The highest kappa u^2: sampled between the breaks, both sides of each, then narrowed down by golden sections.
+/// The highest kappa u^2; 0 of a ride that has none above.
 void add_radial(const Motion& motion, double from_start, GateRide& ride) {
-  constexpr int kSamples = 16;
-  constexpr double kGolden = 0.6180339887498949;
-  const std::vector<double> breaks = motion.centerline().breaks();
-  const auto see = [&](double s) {
-    const double radial =
-        motion.at(s).normal_load - motion.gravity() * math::cos(motion.centerline().slope_angle(s));
-    if (radial > ride.highest_radial) {
-      ride.highest_radial = radial;
-      ride.highest_radial_at = from_start + s;
-    }
-    return radial;
-  };
-  for (std::size_t i = 1; i < breaks.size() && breaks[i - 1] < motion.distance(); ++i) {
-    const double end = std::nextafter(std::min(breaks[i], motion.distance()), 0.0);
-    const double step = (end - breaks[i - 1]) / kSamples;
-    int best = 0;
-    double highest = see(breaks[i - 1]);
-    for (int k = 1; k <= kSamples; ++k) {
-      const double here = see(k == kSamples ? end : breaks[i - 1] + step * k);
-      if (here > highest) best = k;
-      highest = std::max(highest, here);
-    }
-    if (highest < ride.highest_radial || !(highest > 0.0)) continue;
-    double low = breaks[i - 1] + step * std::max(best - 1, 0);
-    double high = best >= kSamples - 1 ? end : breaks[i - 1] + step * (best + 1);
-    constexpr int kRounds = 40;  // a peak is flat: its value is known long before its place
-    for (int round = 0; round < kRounds; ++round) {
-      const double left = high - kGolden * (high - low);
-      const double right = low + kGolden * (high - low);
-      if (see(left) > see(right)) {
-        high = right;
-      } else {
-        low = left;
-      }
-    }
-  }
+  const QuantityPeak peak = motion.highest(
+      [&](const LawState& at) { return at.normal_load - motion.gravity() * math::cos(at.slope_angle); });
+  if (!(peak.value > 0.0)) return;
+  ride.highest_radial = peak.value;
+  ride.highest_radial_at = from_start + peak.arc_length;
 }
 
 GateRide ridden(const CenterlinePtr& track, const Gate& gate, const Body& body, double measuring_place,
@@ -115,7 +87,7 @@ std::vector<Gate> stepped_gates(double length, double start_area, double step) {
   }
   std::vector<Gate> gates;
   for (int number = 1; number <= static_cast<int>(steps) + 1; ++number) {
-    gates.push_back(gate_at(number, std::max(start_area - (number - 1) * step, 0.0), length));
+    gates.push_back(gate_at(number, start_area - (number - 1) * step, length));
   }
   return gates;
 }
