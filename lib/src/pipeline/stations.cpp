@@ -47,7 +47,8 @@ std::vector<StationColumn> law_columns(const Motion& motion, const std::vector<d
   }
   if (const auto* const stream = dynamic_cast<const BulkStream*>(motion.body().law.get())) {
     columns.push_back(column("floor_wear_w_per_m2", motion, arc_lengths, [&](double s) {
-      return stream->floor_wear(s, motion.body().friction, motion.at(s).normal_load);
+      const LawState at = motion.law_state(s);
+      return stream->floor_wear(s, Friction::from_coefficient(at.friction), at.normal_load);
     }));
   }
   return columns;

@@ -119,7 +119,7 @@ Watches::Measures Watches::measures(const MotionState& state, const CenterlinePo
   if (stream_ != nullptr) {
     const double s = state.arc_length;
     measures[3] = stream_->depth(s, state.speed);
-    measures[4] = stream_->floor_wear(s, friction_of_ride_, state.normal_load);
+    measures[4] = stream_->floor_wear(s, friction_at(s, friction_of_ride_), state.normal_load);
   }
   return measures;
 }
@@ -268,11 +268,14 @@ Watch& Watches::watch(const LimitName& limit, double bound, double scale) {
 }
 
 double Watches::steepest_friction(double s) const {
-  Friction friction = problem_.high_friction.value_or(problem_.body.friction);
+  return friction_at(s, problem_.high_friction.value_or(problem_.body.friction)).angle().radians();
+}
+
+Friction Watches::friction_at(double s, Friction friction) const {
   for (const FrictionChange& change : problem_.body.friction_changes) {
     if (change.from <= s) friction = change.friction;
   }
-  return friction.angle().radians();
+  return friction;
 }
 
 }  // namespace glissade::referee

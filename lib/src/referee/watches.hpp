@@ -81,6 +81,8 @@ class Watches {
   Watch& watch(const LimitName& limit, double bound, double scale);
   /// @return the highest friction angle of the range at a place [rad]
   [[nodiscard]] double steepest_friction(double s) const;
+  /// @param friction  before the first place where it changes
+  [[nodiscard]] Friction friction_at(double s, Friction friction) const;
 
   const Problem& problem_;
   double chord_;
