@@ -68,13 +68,14 @@ struct CompareArguments {
 };
 
 std::string ride_text(const Motion& motion) {
+  if (!lands(motion)) return std::string(ride_status(motion));
   if (motion.arrived()) return time_text(motion.travel_time());
   if (motion.law_end()) return std::string(ride_status(motion));
   return motion.stall() ? "stalls" : "lifts off";
 }
 
 std::string exit_text(const Motion& motion) {
-  return motion.arrived() ? speed_text(motion.exit_speed()) : "-";
+  return motion.arrived() && lands(motion) ? speed_text(motion.exit_speed()) : "-";
 }
 
 /// One row a track; of one that does not exist its name and what is wrong.

@@ -102,18 +102,15 @@ std::string resistance_text(const Design& design) {
 }
 
 std::string_view ride_status(const Motion& motion) {
+  if (!lands(motion)) return "flies over the start";
   if (motion.arrived()) return "arrived";
-  const auto stream = stream_facts(motion);
-  if (motion.stall() || (stream && stream->stall)) return "stalled";
+  if (motion.stall()) return "stalled";
   if (motion.lift_off()) return "lifted off";
   return motion.law_end()->what == "valley_radius_m" ? "does not fit" : "choked";
 }
 
 std::string law_end_text(const Motion& motion) {
   const LawEnd& end = motion.law_end().value();
-  if (ride_status(motion) == "stalled") {
-    return emphasised("stands", Emphasis::bad) + " after " + length_text(end.arc_length);
-  }
   const std::string how = end.what == "valley_radius_m" ? "does not fit into the valley" : "chokes";
   return emphasised(how, Emphasis::bad) + " after " + length_text(end.arc_length) + " at " +
          speed_text(end.speed);

@@ -15,6 +15,7 @@ namespace {
 constexpr int kDigits = 4;
 
 std::string time_of(const Motion& motion) {
+  if (!lands(motion)) return std::string(ride_status(motion));
   if (motion.arrived()) return time_text(motion.travel_time());
   if (motion.stall()) return "stalls after " + length_text(motion.stall()->arc_length, kDigits);
   if (motion.law_end())
@@ -49,7 +50,7 @@ void add_ride(Table& table, const std::string& name, const Motion& motion,
               const std::optional<Angle>& stall_angle, const std::string& limits) {
   std::vector<std::string> row = {name,
                                   time_of(motion),
-                                  motion.arrived() ? speed_text(motion.exit_speed()) : "-",
+                                  motion.arrived() && lands(motion) ? speed_text(motion.exit_speed()) : "-",
                                   speed_text(motion.highest_speed().speed),
                                   acceleration_text(motion.highest_load().normal_load),
                                   acceleration_text(motion.lowest_load().normal_load),

@@ -55,8 +55,16 @@ std::string wear_lines(const Design& design, const Track& track) {
   return labelled("Wear", text);
 }
 
+// Rounding, of a search that leads its track along the way of the feed [rad].
+constexpr double kAlong = 1e-9;
+
 /// How a stream comes down on something, and what is left of its speed.
 std::string impact_text(const Landing& landing, const Impact& impact, const char* onto) {
+  if (impact.angle.radians() < -kAlong) {
+    return "falls at " + speed_text(landing.speed) + ", " + angle_text(landing.angle, 3) +
+           " below the horizontal\n" + emphasised("flies over", Emphasis::bad) + " the " + onto +
+           ", which is steeper by " + angle_text(-1.0 * impact.angle, 3);
+  }
   std::string text = "falls at " + speed_text(landing.speed) + ", " + angle_text(landing.angle, 3) +
                      " below the horizontal, " + angle_text(impact.angle, 3) + " to the " + onto;
   if (impact.speed_ratio > 0.0) {
@@ -83,8 +91,7 @@ std::string hood_lines(const Design& design, const Track& track) {
           " where the feed meets it, " + rounded_text(passage.least_contact, 3) + " at least";
   text += "\nleaves at " + speed_text(below.exit_speed()) + ", " +
           length_text(below.highest(BulkStream::kDepth).value) + " deep at most; wears " +
-          quantity_text(stream_state(below, below.highest_load().arc_length).floor_wear,
-                        Dimension::power_per_area) +
+          quantity_text(stream_peak(below, &StreamState::floor_wear).value, Dimension::power_per_area) +
           " at most";
   text += "\n" + impact_text(passage.landing, impact, "floor of the spoon");
   const Range spread = landing_spread(design, track);
@@ -114,7 +121,7 @@ std::string feed_lines(const Design& design, const Track& track) {
 }
 
 std::string discharge_lines(const Design& design, const Track& track) {
-  if (!design.discharge || !track.motion.arrived()) return "";
+  if (!design.discharge || !track.motion.arrived() || !lands(track.motion)) return "";
   const BeltLanding landing = belt_landing(design, track.motion);
   return labelled("Discharge",
                   "lands with " + speed_text(landing.speed_along) + " along the belt, " +
@@ -131,6 +138,7 @@ std::string discharge_lines(const Design& design, const Track& track) {
 
 std::string stream_lines(const Design& given, const Track& track) {
   const Design design = as_solved(given, track);
+  if (!lands(track.motion)) return feed_lines(design, track) + hood_lines(design, track);
   std::string text = depth_text(design, track.motion);
   const auto most = choking_mass_flow(track.centerline, track.motion.body(), design.gravity);
   if (most && *most == 0.0) {

@@ -112,6 +112,9 @@ std::string comparison_lines(const Design& design, const Track& track) {
 
 std::string ride_lines(const Design& design, const Track& track) {
   const Motion& motion = track.motion;
+  if (!lands(motion)) {
+    return labelled("Ride", "none: the feed " + emphasised(std::string(ride_status(motion)), Emphasis::bad));
+  }
   if (motion.arrived()) {
     return labelled("Travel time", time_text(motion.travel_time()) + comparison_lines(design, track)) +
            labelled("Exit speed", speed_text(motion.exit_speed()));

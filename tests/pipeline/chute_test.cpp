@@ -138,6 +138,43 @@ TEST_CASE("a feed that flies over the start is a problem with a way out") {
   CHECK_THAT(problem->hint, Contains("entry_slope_angle"));
 }
 
+TEST_CASE("nothing follows from an impact that does not take place") {
+  const Design design = parse_design(replaced(spoon(), "drop: 1 m}", "drop: 50 mm}"), "d.yaml");
+  const Track track = solve(design);
+  CHECK_FALSE(lands(track.motion));
+  const std::vector<Judgement> all = judge_rules(design, track);
+  const Judgement& landing = verdict(all, "chute.4.landing");
+  CHECK(landing.verdict == RuleVerdict::fail);
+  CHECK(*landing.value ==
+        Approx(std::atan2(std::sqrt(2.0 * 9.81 * 0.05), 2.0) - std::atan2(2.4, 2.0)).epsilon(1e-12));
+  for (const char* const id : {"chute.2.stall", "chute.4.impact-ratio", "chute.4.impact-angle",
+                               "chute.5.contact", "chute.6.belt", "chute.7.depth", "chute.9.wear"}) {
+    INFO(id);
+    CHECK(verdict(all, id).verdict == RuleVerdict::cannot_be_judged);
+  }
+  CHECK_THAT(verdict(all, "chute.4.impact-ratio").reason, Contains("flies over the start"));
+  const json told = json::parse(track_json(design, track));
+  CHECK(told["status"] == "flies over the start");
+  CHECK(told["cases"][0]["status"] == "flies over the start");
+  for (const char* const key : {"travel_time_s", "exit_speed_m_per_s", "entry_speed_m_per_s", "discharge"}) {
+    INFO(key);
+    CHECK(told[key].is_null());
+  }
+  for (const char* const key :
+       {"impact_angle_deg", "speed_ratio", "entry_speed_m_per_s", "impact_pressure_pa"}) {
+    INFO(key);
+    CHECK(told["feed"][key].is_null());
+  }
+  CHECK(told["feed"]["angle_deg"].is_number());
+  CHECK(told["wear"]["highest_floor_wear_w_per_m2"].is_null());
+  // A feed along the floor lands, and keeps its speed.
+  const Design along =
+      parse_design(replaced(spoon(), "kind: belt, belt_speed: 2 m/s, pulley_radius: 300 mm, drop: 1 m",
+                            "kind: free-fall, drop: 1 m"),
+                   "d.yaml");
+  CHECK(verdict(judge_rules(along, solve(along)), "chute.4.landing").verdict == RuleVerdict::pass);
+}
+
 TEST_CASE("ends that cannot be are refused") {
   CHECK_THAT(problems(replaced(spoon(), "drop: 1 m}", "drop: 0 m}")), Contains("never meets the floor"));
   CHECK_THAT(problems(replaced(spoon(), "27 deg", "27 deg, entry_speed: 2 m/s")),

@@ -5,13 +5,17 @@
 
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -257,7 +261,7 @@ cross_section: {kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 
   CHECK(track.search->objective.kind == ObjectiveKind::least_peak_wear);
 }
 
-TEST_CASE("a stream of next to nothing stands where a sliding point stalls") {
+TEST_CASE("a stream of next to nothing chokes where a sliding point stalls") {
   Chute chute = arc(2.0, 20.0, 88.0);
   chute.mu = 0.7;
   chute.entry_speed = 1.0;
@@ -269,16 +273,92 @@ TEST_CASE("a stream of next to nothing stands where a sliding point stalls") {
   const Motion slides(track.centerline, point, 9.81);
   REQUIRE(slides.stall());
   const StreamFacts facts = stream_facts(track.motion).value();
-  REQUIRE(facts.stall);
-  CHECK_FALSE(facts.choke);
-  CHECK(facts.stall->arc_length == Approx(slides.stall()->arc_length).epsilon(1e-5));
-  CHECK(facts.stall->missing_slope.radians() ==
-        Approx(slides.stall()->missing_slope.radians()).epsilon(1e-3));
+  REQUIRE(facts.choke);
+  CHECK(facts.choke->arc_length == Approx(slides.stall()->arc_length).epsilon(1e-5));
+  CHECK(facts.choke->depth == Approx(chute.wall).epsilon(1e-12));
+  CHECK(facts.choke->speed == Approx(1e-6 / (770.0 * 0.3 * chute.wall)).epsilon(1e-12));
+  CHECK(facts.deepest.value == facts.choke->depth);
   const json document = json::parse(track_json(design, track));
-  CHECK(document["status"] == "stalled");
-  CHECK(document["stream"]["choked"] == false);
-  CHECK(document["stall"]["arc_length_m"].get<double>() == facts.stall->arc_length);
-  CHECK_THAT(ride_problem(design, track)->what, Contains("the stream stands after"));
+  CHECK(document["status"] == "choked");
+  CHECK(document["stall"].is_null());
+  CHECK(document["stream"]["choked"] == true);
+  CHECK(document["law_end"]["bound"].get<double>() == Approx(chute.wall).epsilon(1e-12));
+  CHECK_THAT(ride_problem(design, track)->what, Contains("the stream chokes after"));
+  // What it had at the start it has lost on the way, or it is its height.
+  const MotionState end = track.motion.at(track.motion.distance());
+  CHECK(end.friction_loss + 0.5 * end.speed * end.speed ==
+        Approx(0.5 + 9.81 * track.centerline->at(end.arc_length).drop).epsilon(1e-12));
+}
+
+TEST_CASE("a stream too small to be as deep as its wall at 1 mm/s chokes all the same") {
+  Chute chute;
+  chute.slope_deg = 21.49;
+  chute.length = 1.441;
+  chute.mu = 0.574;
+  chute.entry_speed = 3.36;
+  chute.mass_flow = 0.590752 / 3.6;
+  chute.density = 2347.1;
+  chute.width = 0.896;
+  chute.wall = 0.743;
+  chute.ratio = 0.72;
+  const Design design = parse_design(
+      std::regex_replace(chute.text(), std::regex("1/m\\}\\]"), "1/m}, {length: 0.765 m, radius: 1.66 m}]"),
+      "d.yaml");
+  const Track track = solve(design);
+  const StreamFacts facts = stream_facts(track.motion).value();
+  REQUIRE(facts.choke);
+  CHECK(facts.choke->over_wall);
+  CHECK(facts.choke->depth == Approx(0.743).epsilon(1e-12));
+  CHECK(facts.filling.value == 1.0);
+  CHECK(json::parse(track_json(design, track))["status"] == "choked");
+}
+
+TEST_CASE("wear is told where a bend ends: upstream of a drop of the curvature") {
+  // 0.07 m of a bend of 1 m, then straight: the load drops where the bend ends.
+  const char* const text = R"(glissade: 1
+track: {start: {x: 0 m, z: 100 m}}
+body: {friction_coefficient: 0.3, entry_speed: 2 m/s}
+stream: {mass_flow: 100 t/h, bulk_density: 1500 kg/m^3, slip_ratio: 0.6, liner_plate: {thickness: 12 mm, hardness: 4 GPa, wear_coefficient: 5e-4}}
+centerline: {kind: segments, entry_slope_angle: 85 deg, segments: [{length: 0.07 m, radius: 1 m}, {length: 29.93 m}]}
+cross_section: {kind: u-channel, width: 500 mm, wall_height: 300 mm, thickness: 5 mm}
+limits: {highest_floor_wear: 60 W/m^2}
+)";
+  const Design design = parse_design(text, "d.yaml");
+  const Track track = solve(design);
+  Chute bend;
+  bend.slope_deg = 85.0;
+  bend.length = 0.07;
+  bend.curvature = 1.0;
+  bend.mu = 0.3;
+  bend.entry_speed = 2.0;
+  bend.mass_flow = 100.0 / 3.6;
+  bend.density = 1500.0;
+  bend.width = 0.5;
+  const double speed = integrated(bend, 400).speed;
+  const double load = 9.81 * std::cos(85.0 * kDegree - 0.07) + speed * speed;
+  const double wear = 100.0 / 3.6 * 0.6 * 0.3 * load / 0.5;
+  const json told = json::parse(track_json(design, track));
+  CHECK(told["wear"]["highest_floor_wear_w_per_m2"].get<double>() == Approx(wear).epsilon(1e-9));
+  CHECK(told["wear"]["highest_floor_wear_at_m"].get<double>() == Approx(0.07));
+  CHECK(told["wear"]["highest_wall_wear_w_per_m2"].get<double>() == Approx(wear * 0.5 / 1.2).epsilon(1e-9));
+  CHECK(told["wear"]["wear_plates"].size() == 1);
+  CHECK(told["wear"]["wear_plates"][0]["to_m"].get<double>() == Approx(0.07));
+  // Archard: k W_c/(mu H), through 12 mm.
+  CHECK(told["wear"]["liner_life_h"].get<double>() ==
+        Approx(0.012 / (5e-4 * wear / 0.3 / 4e9) / 3600.0).epsilon(1e-9));
+  const json& limits = told["limits"];
+  const auto row = std::find_if(limits.begin(), limits.end(),
+                                [](const json& one) { return one["limit"] == "highest_floor_wear"; });
+  REQUIRE(row != limits.end());
+  CHECK((*row)["reached"].get<double>() == Approx(wear).epsilon(1e-9));
+  const double straight = 100.0 / 3.6 * 0.6 * 0.3 * 9.81 * std::cos(85.0 * kDegree - 0.07) / 0.5;
+  CHECK(told["wear"]["mean_floor_wear_w_per_m2"].get<double>() > straight);
+  const std::vector<Judgement> all = judge_rules(design, track);
+  const auto rule = std::find_if(all.begin(), all.end(),
+                                 [](const Judgement& one) { return one.rule.id == "chute.9.wear"; });
+  REQUIRE(rule != all.end());
+  CHECK(rule->verdict == RuleVerdict::warn);
+  CHECK(*rule->value > 4.2);
 }
 
 TEST_CASE("without pressure on the walls a stream rides as a sliding point does") {

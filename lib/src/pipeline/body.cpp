@@ -72,6 +72,13 @@ BeltLanding belt_landing(const Design& design, const Motion& motion) {
                       design.stream.value().bulk_density, design.gravity);
 }
 
+std::optional<Impact> impact_of(const Design& design, const Motion& motion) {
+  const Body& body = motion.body();
+  if (!body.landing || !lands(motion)) return {};
+  return impact_on(*body.landing, Angle::from_radians(motion.centerline().slope_angle(0.0)), body.friction,
+                   design.stream.value().bulk_density);
+}
+
 WearFacts wear_at_frictions(const Track& track) {
   std::vector<const Motion*> motions;
   for (const LevelRide& ride : track.rides()) motions.push_back(ride.motion);
@@ -149,14 +156,7 @@ namespace {
 
 Issue choke_problem(const Design& design, const LawEnd& end, const std::string& before) {
   const StreamChannel channel = stream_channel(design.cross_section.value()).value();
-  constexpr double kAsDeep = 1.0 - 1e-9;
   const double width = channel.width.at(end.arc_length);
-  if (end.value < kAsDeep * std::min(width, channel.wall_height)) {
-    return {design.where("stream"), "the stream stands" + before,
-            "It is " + length_text(end.value) +
-                " deep there and hardly moves: it rubs more than the slope drives it.",
-            "a steeper track, less friction, or a higher entry_speed"};
-  }
   const bool over_wall = channel.wall_height < width;
   return {design.where("stream"), "the stream chokes" + before,
           "At " + rounded_text(end.speed, 4) + " m/s it is " + length_text(end.value) + " deep there, " +

@@ -64,7 +64,13 @@ void measure_slopes(const Design& design, const Track& track, Measurements& meas
   measurements.set("slope_margin", -flattest.value - high, flattest.at);
   // The corner between floor and wall runs along the track; where the width changes, across it too.
   const BulkStream& stream = *stream_of(track.motion.body());
-  const Extreme valley = highest_along(centerline, [&](double s) {
+  std::vector<double> breaks = centerline.breaks();
+  for (const WidthAt& knot : stream.shape().width.knots()) {
+    if (knot.at > 0.0 && knot.at < centerline.length()) breaks.push_back(knot.at);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  const Extreme valley = highest_along(breaks, [&](double s) {
     const double turned = math::atan(0.5 * stream.width_slope(s));
     return -math::asin(math::sin(centerline.slope_angle(s)) * math::cos(turned));
   });
@@ -72,87 +78,107 @@ void measure_slopes(const Design& design, const Track& track, Measurements& meas
   if (const auto stops = stall_angle_of(track)) measurements.set("stall_margin", stops->radians() - high);
 }
 
-/// What the stream does below a hood, beside what it does on the track.
-void see_hood(const ChuteCase& run, double wall, WorstCase& slowest, WorstCase& deepest,
-              WorstCase& thickest) {
+/// What the stream does on the track and below a hood before it: the worst of all cases.
+class WorstRides {
+ public:
+  void see(const ChuteCase& run, double wall);
+  void see_hood(const ChuteCase& run, double wall);
+  void set_in(Measurements& measurements) const;
+
+ private:
+  WorstCase slowest_{-1.0};
+  WorstCase lightest_{-1.0};
+  WorstCase deepest_{1.0};
+  WorstCase thickest_{1.0};
+  WorstCase peak_{1.0};
+  WorstCase held_{-1.0};
+};
+
+void WorstRides::see(const ChuteCase& run, double wall) {
+  const Motion& motion = run.motion;
+  const BulkStream& stream = *stream_of(motion.body());
+  const QuantityPeak slow = motion.highest([](const LawState& at) { return -std::sqrt(at.v); });
+  slowest_.see(-slow.value, slow.arc_length, run);
+  const QuantityPeak light = motion.highest(
+      [&](const LawState& at) { return -at.normal_load / (motion.gravity() * math::cos(at.slope_angle)); });
+  lightest_.see(-light.value, light.arc_length, run);
+  const QuantityPeak depth = motion.highest(BulkStream::kDepth);
+  deepest_.see(depth.value / wall, depth.arc_length, run);
+  const QuantityPeak thick = motion.highest([&](const LawState& at) {
+    return stream.depth(at.arc_length, std::sqrt(at.v)) / stream.width(at.arc_length);
+  });
+  thickest_.see(thick.value, thick.arc_length, run);
+  if (!motion.arrived()) return;
+  const ValueAt most = stream_peak(motion, &StreamState::floor_wear);
+  const double mean = mean_floor_wear(motion);
+  if (mean > 0.0) peak_.see(most.value / mean, most.arc_length, run);
+}
+
+void WorstRides::see_hood(const ChuteCase& run, double wall) {
   const Motion& motion = run.hood->motion;
   const double width = stream_of(motion.body())->width(0.0);
   const double depth = motion.highest(BulkStream::kDepth).value;
-  deepest.see(depth / wall, {}, run, kAtHood);
-  thickest.see(depth / width, {}, run, kAtHood);
+  deepest_.see(depth / wall, {}, run, kAtHood);
+  thickest_.see(depth / width, {}, run, kAtHood);
   // With one width it is slowest where it is deepest.
-  slowest.see(stream_of(motion.body())->depth(0.0, 1.0) / depth, {}, run, kAtHood);
+  slowest_.see(stream_of(motion.body())->depth(0.0, 1.0) / depth, {}, run, kAtHood);
+  held_.see(run.hood->least_contact, {}, run, kAtHood);
+}
+
+void WorstRides::set_in(Measurements& measurements) const {
+  slowest_.set_in(measurements, "lowest_stream_speed");
+  lightest_.set_in(measurements, "contact_reserve");
+  held_.set_in(measurements, "hood_contact");
+  deepest_.set_in(measurements, "depth_over_wall");
+  thickest_.set_in(measurements, "depth_over_width");
+  peak_.set_in(measurements, "wear_peak");
 }
 
 void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
-  WorstCase slowest(-1.0);
-  WorstCase lightest(-1.0);
-  WorstCase deepest(1.0);
-  WorstCase thickest(1.0);
-  WorstCase peak(1.0);
-  WorstCase held(-1.0);
+  WorstRides worst;
   const double wall = stream_channel(design.cross_section.value()).value().wall_height;
   for (const ChuteCase& run : cases) {
-    const Motion& motion = run.motion;
-    const BulkStream& stream = *stream_of(motion.body());
-    const auto within = [&](const std::function<double(double)>& quantity) {
-      return highest_along(motion.centerline(), quantity, motion.distance());
-    };
-    const Extreme slow = within([&](double s) { return -motion.at(s).speed; });
-    slowest.see(-slow.value, slow.at, run);
-    const Extreme light = within([&](double s) {
-      return -motion.at(s).normal_load / (motion.gravity() * math::cos(motion.centerline().slope_angle(s)));
-    });
-    lightest.see(-light.value, light.at, run);
-    const QuantityPeak depth = motion.highest(BulkStream::kDepth);
-    deepest.see(depth.value / wall, depth.arc_length, run);
-    const Extreme thick =
-        within([&](double s) { return stream.depth(s, motion.at(s).speed) / stream.width(s); });
-    thickest.see(thick.value, thick.at, run);
-    if (run.hood) {
-      see_hood(run, wall, slowest, deepest, thickest);
-      held.see(run.hood->least_contact, {}, run, kAtHood);
-    }
-    if (!motion.arrived()) continue;
-    const MotionState heaviest = motion.highest_load();
-    constexpr int kPlaces = 200;
-    double sum = 0.0;
-    for (int i = 0; i < kPlaces; ++i)
-      sum += stream_state(motion, motion.distance() * (i + 0.5) / kPlaces).floor_wear;
-    const double highest = stream_state(motion, heaviest.arc_length).floor_wear;
-    if (sum > 0.0) peak.see(highest * kPlaces / sum, heaviest.arc_length, run);
+    // What flies over the start is no ride.
+    if (lands(run.motion)) worst.see(run, wall);
+    if (run.hood) worst.see_hood(run, wall);
   }
-  slowest.set_in(measurements, "lowest_stream_speed");
-  lightest.set_in(measurements, "contact_reserve");
-  held.set_in(measurements, "hood_contact");
+  worst.set_in(measurements);
   measurements.set("hoods", design.hood ? 1.0 : 0.0);
-  deepest.set_in(measurements, "depth_over_wall");
-  thickest.set_in(measurements, "depth_over_width");
-  peak.set_in(measurements, "wear_peak");
 }
 
 void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
   if (!design.feed) {
-    for (const char* const key : {"impact_speed_ratio", "impact_angle", "feed_drop"})
+    for (const char* const key : {"landing_margin", "impact_speed_ratio", "impact_angle", "feed_drop"})
       measurements.set_missing(key, "feed: {kind: belt, ...}, how the stream comes down");
     return;
   }
   measurements.set("feed_drop", std::max(design.feed->drop, design.hood ? design.hood->drop : 0.0));
+  WorstCase margin(-1.0);
   WorstCase ratio(-1.0);
   WorstCase angle(1.0);
+  bool all_land = true;
   for (const ChuteCase& run : cases) {
-    const Body& body = run.motion.body();
-    const Impact impact =
-        impact_on(body.landing.value(), Angle::from_radians(run.motion.centerline().slope_angle(0.0)),
-                  body.friction, design.stream->bulk_density);
-    ratio.see(impact.speed_ratio, 0.0, run);
-    angle.see(impact.angle.radians(), 0.0, run);
+    const std::optional<Impact> impact = impact_of(design, run.motion);
+    const double slope = run.motion.centerline().slope_angle(0.0);
+    // What lands within the rounding of a search lands.
+    const double steeper = run.motion.body().landing.value().angle.radians() - slope;
+    margin.see(impact ? std::max(0.0, steeper) : steeper, 0.0, run);
+    all_land = all_land && impact;
+    if (!impact) continue;
+    ratio.see(impact->speed_ratio, 0.0, run);
+    angle.see(impact->angle.radians(), 0.0, run);
     if (!run.hood) continue;
     ratio.see(run.hood->impact.speed_ratio, {}, run, kAtHood);
     angle.see(run.hood->impact.angle.radians(), {}, run, kAtHood);
   }
-  ratio.set_in(measurements, "impact_speed_ratio");
-  angle.set_in(measurements, "impact_angle");
+  margin.set_in(measurements, "landing_margin");
+  if (all_land) {
+    ratio.set_in(measurements, "impact_speed_ratio");
+    angle.set_in(measurements, "impact_angle");
+  } else {
+    for (const char* const key : {"impact_speed_ratio", "impact_angle"})
+      measurements.set_missing(key, "a feed that lands: it flies over the start");
+  }
 }
 
 void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases,
@@ -166,7 +192,8 @@ void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases
   const BeltLanding* worst = nullptr;
   std::vector<std::pair<BeltLanding, const ChuteCase*>> landings;
   for (const ChuteCase& run : cases) {
-    if (run.motion.arrived()) landings.emplace_back(belt_landing(design, run.motion), &run);
+    if (run.motion.arrived() && lands(run.motion))
+      landings.emplace_back(belt_landing(design, run.motion), &run);
   }
   const ChuteCase* of = nullptr;
   for (const auto& [landing, run] : landings) {
@@ -230,7 +257,7 @@ void measure_speed(const Design& design, const std::vector<ChuteCase>& cases, Me
   WorstCase fastest(1.0);
   for (const ChuteCase& run : cases) {
     const MotionState state = run.motion.highest_speed();
-    fastest.see(state.speed / *cap, state.arc_length, run);
+    if (lands(run.motion)) fastest.see(state.speed / *cap, state.arc_length, run);
     if (run.hood) fastest.see(run.hood->motion.highest_speed().speed / *cap, {}, run, kAtHood);
   }
   fastest.set_in(measurements, "speed_over_cap");

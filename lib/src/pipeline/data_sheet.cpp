@@ -143,7 +143,7 @@ Drawing side_of(const Design& design, const Track& track) {
 struct Chart {
   std::string title;
   double unit = 1.0;  ///< SI to what is written
-  std::function<double(const Motion&, double)> value;
+  std::function<double(const BulkStream&, const LawState&)> value;
 };
 
 void label(Drawing& ink, Vec2 at, const std::string& text, TextAnchor anchor) {
@@ -151,23 +151,49 @@ void label(Drawing& ink, Vec2 at, const std::string& text, TextAnchor anchor) {
   ink.texts.push_back({layer, at, kText, text, anchor, {}});
 }
 
-Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
-  constexpr int kPlaces = 500;  // a short bend wears most on a hundredth of the track
+const BulkStream& stream_on(const Motion& motion) {
+  return *stream_of(motion.body());
+}
+
+QuantityPeak peak_of(const Chart& chart, const Motion& motion) {
+  const BulkStream& stream = stream_on(motion);
+  return motion.highest([&](const LawState& at) { return chart.value(stream, at); });
+}
+
+/// Where a chart is drawn: evenly, at its peaks, and on both sides of each place where a ride changes.
+std::vector<double> chart_places(const Chart& chart, const Track& track) {
+  constexpr int kPlaces = 500;  // taste: a fifth of a millimetre of paper
   const double length = track.centerline->length();
+  std::vector<double> places;
+  for (int i = 0; i <= kPlaces; ++i) places.push_back(std::min(length, length * i / kPlaces));
+  for (const LevelRide& ride : track.rides()) {
+    places.push_back(peak_of(chart, *ride.motion).arc_length);
+    for (const double at : ride.motion->breaks()) {
+      if (at > 0.0) places.push_back(std::nextafter(at, 0.0));
+      places.push_back(at);
+    }
+  }
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
+  const double length = track.centerline->length();
+  const std::vector<double> places = chart_places(chart, track);
   std::vector<std::vector<double>> lines;
   double most = 0.0;
   for (const LevelRide& ride : track.rides()) {
     lines.emplace_back();
-    for (int i = 0; i <= kPlaces; ++i) {
-      const double s = std::min(length, length * i / kPlaces);
+    for (const double s : places) {
       if (s > ride.motion->distance()) break;
-      lines.back().push_back(chart.unit * chart.value(*ride.motion, s));
-      most = std::max(most, lines.back().back());
+      lines.back().push_back(chart.unit * chart.value(stream_on(*ride.motion), ride.motion->law_state(s)));
     }
+    most = std::max(most, chart.unit * peak_of(chart, *ride.motion).value);
   }
   const PlaneBox frame{room.low + Vec2{2.0, 6.0}, room.high - Vec2{2.0, 5.0}};
   const auto place = [&](std::size_t i, double value) {
-    return Vec2{frame.low.x + frame.width() * static_cast<double>(i) / kPlaces,
+    return Vec2{frame.low.x + frame.width() * places[i] / length,
                 frame.low.y + frame.height() * value / (1.08 * std::max(most, 1e-12))};
   };
   Drawing ink;
@@ -177,7 +203,7 @@ Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
   // Between the least and the greatest of the frictions.
   std::vector<Vec2> upper;
   std::vector<Vec2> lower;
-  for (std::size_t i = 0; i <= kPlaces; ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     double least = 1e300;
     double greatest = -1e300;
     for (const auto& line : lines) {
@@ -207,12 +233,14 @@ Drawing chart_of(const Chart& chart, const Track& track, const PlaneBox& room) {
 }
 
 std::vector<Chart> charts() {
-  return {
-      {"depth [mm]", 1e3, [](const Motion& m, double s) { return stream_state(m, s).depth; }},
-      {"speed [m/s]", 1.0, [](const Motion& m, double s) { return m.at(s).speed; }},
-      {"floor pressure [kPa]", 1e-3,
-       [](const Motion& m, double s) { return stream_state(m, s).floor_pressure; }},
-      {"floor wear [W/m^2]", 1.0, [](const Motion& m, double s) { return stream_state(m, s).floor_wear; }}};
+  const auto of = [](double StreamState::*member) {
+    return
+        [member](const BulkStream& stream, const LawState& at) { return stream_state(stream, at).*member; };
+  };
+  return {{"depth [mm]", 1e3, of(&StreamState::depth)},
+          {"speed [m/s]", 1.0, [](const BulkStream&, const LawState& at) { return std::sqrt(at.v); }},
+          {"floor pressure [kPa]", 1e-3, of(&StreamState::floor_pressure)},
+          {"floor wear [W/m^2]", 1.0, of(&StreamState::floor_wear)}};
 }
 
 // --- tables

@@ -47,22 +47,23 @@ Extreme highest_between(double from, double to, const Quantity& quantity) {
 
 }  // namespace
 
-Extreme highest_along(const Centerline& centerline, const Quantity& quantity, double until) {
-  const std::vector<double> breaks = centerline.breaks();
+Extreme highest_along(const std::vector<double>& breaks, const Quantity& quantity) {
   Extreme highest{-std::numeric_limits<double>::infinity(), 0.0};
-  for (std::size_t index = 1; index < breaks.size() && breaks[index - 1] < until; ++index) {
-    const Extreme here = highest_between(breaks[index - 1], std::min(breaks[index], until), quantity);
+  for (std::size_t index = 1; index < breaks.size(); ++index) {
+    const Extreme here = highest_between(breaks[index - 1], breaks[index], quantity);
     if (here.value > highest.value) highest = here;
   }
   return highest;
 }
 
+Extreme highest_along(const Centerline& centerline, const Quantity& quantity) {
+  return highest_along(centerline.breaks(), quantity);
+}
+
 Extreme highest_radial_acceleration(const Motion& motion) {
-  const Centerline& centerline = motion.centerline();
-  const auto radial = [&](double s) {
-    return motion.at(s).normal_load - motion.gravity() * math::cos(centerline.slope_angle(s));
-  };
-  return highest_along(centerline, radial, motion.distance());
+  const QuantityPeak peak = motion.highest(
+      [&](const LawState& at) { return at.normal_load - motion.gravity() * math::cos(at.slope_angle); });
+  return {peak.value, peak.arc_length};
 }
 
 double smallest_radius(const Centerline& centerline) {

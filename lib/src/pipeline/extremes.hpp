@@ -4,6 +4,7 @@
 #include "glissade/motion/motion.hpp"
 
 #include <functional>
+#include <vector>
 
 namespace glissade::pipeline {
 
@@ -13,11 +14,15 @@ struct Extreme {
   double at = 0.0;  ///< arc length [m]
 };
 
-/// @param quantity  of an arc length; smooth between the breaks of the centerline
-/// @param until     as far as it is asked [m]; the whole centerline if it is longer
+/// Of what a ride tells Motion::highest() knows the greatest value.
+/// @param breaks    ascending arc lengths, at least two [m]
+/// @param quantity  of an arc length; smooth between them
 /// @return its highest value, at a jump that of the higher side
+[[nodiscard]] Extreme highest_along(const std::vector<double>& breaks,
+                                    const std::function<double(double s)>& quantity);
+/// Between the breaks of a centerline.
 [[nodiscard]] Extreme highest_along(const Centerline& centerline,
-                                    const std::function<double(double s)>& quantity, double until = 1e300);
+                                    const std::function<double(double s)>& quantity);
 
 /// @return the highest kappa u^2 of a ride [m/s^2]: how much more than its weight's share the body presses
 [[nodiscard]] Extreme highest_radial_acceleration(const Motion& motion);

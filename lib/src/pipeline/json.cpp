@@ -168,7 +168,7 @@ Json cases_json(const Design& design, const CenterlinePtr& centerline) {
                  {"highest_speed_m_per_s", entry["highest_speed_m_per_s"]},
                  {"stream", entry["stream"]}};
     if (run.hood) kept["hood"] = hood_passage_json(*run.hood);
-    if (design.discharge && run.motion.arrived())
+    if (design.discharge && run.motion.arrived() && lands(run.motion))
       kept["discharge"] = belt_landing_json(belt_landing(design, run.motion));
     list.push_back(std::move(kept));
   }
@@ -204,7 +204,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
 }
 
 /// The feed then falls on the hood; what comes down on the track is the hood's.
-void add_hood(Json& json, const Design& design, const Track& track, const Impact& impact) {
+void add_hood(Json& json, const Design& design, const Track& track, const std::optional<Impact>& impact) {
   const HoodPassage passage = hood_passage(design, track.motion.body());
   json["feed"] = feed_json(feed_fall(design), passage.impact, passage.motion.body().entry_speed);
   json["hood"] = hood_json(pipeline::shape_of(*design.hood), passage, impact);
@@ -221,17 +221,16 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   json["centerline"] = word(design.centerline.kind);
   add_ride(json, track.motion);
   if (design.feed) {
-    const Body& body = track.motion.body();
-    json["entry_speed_m_per_s"] = body.entry_speed;
-    const Impact impact =
-        impact_on(body.landing.value(), Angle::from_radians(track.centerline->slope_angle(0.0)),
-                  body.friction, design.stream->bulk_density);
-    json["feed"] = feed_json(feed_fall(design), impact, body.entry_speed);
+    const std::optional<Impact> impact = impact_of(design, track.motion);
+    const double entry_speed = track.motion.body().entry_speed;
+    json["entry_speed_m_per_s"] = impact ? Json(entry_speed) : Json(nullptr);
+    json["feed"] = feed_json(feed_fall(design), impact, entry_speed);
     if (design.hood) add_hood(json, design, track, impact);
   }
   if (design.discharge) {
-    json["discharge"] =
-        track.motion.arrived() ? belt_landing_json(belt_landing(design, track.motion)) : Json(nullptr);
+    json["discharge"] = track.motion.arrived() && lands(track.motion)
+                            ? belt_landing_json(belt_landing(design, track.motion))
+                            : Json(nullptr);
   }
   if (design.stream) {
     json["stream"]["choking_mass_flow_kg_per_s"] =
@@ -250,6 +249,10 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   json["rules"] = report::rules_json(judge_rules(design, track));
   if (design.stream) {
     json["wear"] = wear_json(design, track);
+    // What flies over the start wears nothing; a reader finds the same keys.
+    if (!lands(track.motion)) {
+      for (auto& [key, value] : json["wear"].items()) value = nullptr;
+    }
     json["verdicts"] = json["rules"];
     json["cases"] = cases_json(design, track.centerline);
   }

@@ -408,11 +408,14 @@ namespace {
 /// A feed that falls flatter than the floor where it should land never meets it there.
 std::optional<Issue> feed_problem(const Design& design, const Track& track) {
   if (!design.feed) return {};
-  const Angle slope = Angle::from_radians(track.centerline->slope_angle(0.0));
   Angle falls = track.motion.body().landing->angle;
-  for (const LevelRide& ride : track.rides()) falls = std::min(falls, ride.motion->body().landing->angle);
-  constexpr Angle kRounding = Angle::from_radians(1e-9);
-  if (slope <= falls + kRounding) return {};
+  bool all_land = lands(track.motion);
+  for (const LevelRide& ride : track.rides()) {
+    falls = std::min(falls, ride.motion->body().landing->angle);
+    all_land = all_land && lands(*ride.motion);
+  }
+  if (all_land) return {};
+  const Angle slope = Angle::from_radians(track.centerline->slope_angle(0.0));
   return Issue{design.where("feed"),
                "the feed flies over the start: it falls at " + angle_text(falls) + ", the floor at " +
                    angle_text(slope),

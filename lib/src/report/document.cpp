@@ -81,23 +81,14 @@ struct Radius {
   double arc_length;
 };
 
-/// The smallest radius at the stations of the ride and just beside the breaks.
+/// The smallest radius of what is ridden.
 Radius smallest_radius(const Motion& motion) {
-  Radius least{std::numeric_limits<double>::infinity(), 0.0};
-  for (const double s : ride_stations(motion)) {
-    const double curvature = std::fabs(motion.centerline().at(s).curvature);
-    const double radius = std::isinf(curvature) ? 0.0 : 1.0 / curvature;
-    if (curvature > 0.0 && radius < least.value) least = {radius, s};
-  }
-  return least;
+  const QuantityPeak sharpest = motion.highest([](const LawState& at) { return std::fabs(at.curvature); });
+  return {1.0 / sharpest.value, sharpest.value > 0.0 ? sharpest.arc_length : 0.0};
 }
 
 Angle steepest_slope_angle(const Motion& motion) {
-  double steepest = -std::numeric_limits<double>::infinity();
-  for (const double s : ride_stations(motion)) {
-    steepest = std::max(steepest, motion.centerline().slope_angle(s));
-  }
-  return Angle::from_radians(steepest);
+  return Angle::from_radians(motion.highest([](const LawState& at) { return at.slope_angle; }).value);
 }
 
 Json optimum_travel_time(const ReportInput& input) {

@@ -55,6 +55,7 @@ constexpr std::array kOfTracks = std::to_array<RuleQuantity>({
     {"stall_margin", angle, "friction angle at which the stream stops, less the highest"},
     {"slope_margin", angle, "flattest slope angle less the highest friction angle"},
     {"valley_angle", angle, "flattest corner between floor and wall"},
+    {"landing_margin", angle, "slope of the feed's fall above that of the floor where it lands"},
     {"impact_speed_ratio", number, "speed after the feed's impact over that before"},
     {"impact_angle", angle, "angle at which the feed meets the floor"},
     {"feed_drop", length, "height from which the feed falls"},

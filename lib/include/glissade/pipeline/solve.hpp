@@ -49,6 +49,11 @@ namespace glissade {
 /// @param design  with a feed
 [[nodiscard]] FeedFall feed_fall(const Design& design);
 
+/// How the stream of a ride comes down on the start of its track.
+/// @param design  with a stream
+/// @return none of one that enters along the track, or flies over the start (lands())
+[[nodiscard]] std::optional<Impact> impact_of(const Design& design, const Motion& motion);
+
 /// How the stream of a ride lands on the belt of a design.
 /// @param design  with a stream and a discharge
 /// @param motion  arrived

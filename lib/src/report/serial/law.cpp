@@ -45,6 +45,7 @@ class KindJson {
 }  // namespace
 
 std::string_view status_of(const Motion& motion) {
+  if (!lands(motion)) return "flies over the start";
   if (motion.arrived()) return "arrived";
   if (motion.stall()) return "stalled";
   if (motion.lift_off()) return "lifted off";

@@ -35,13 +35,14 @@ void add_stream_body(Json& json, const Design& design) {
   json["moisture"] = number(stream.material->moisture);
 }
 
-Json feed_json(const FeedFall& fall, const Impact& impact, double entry_speed) {
+Json feed_json(const FeedFall& fall, const std::optional<Impact>& impact, double entry_speed) {
+  const auto if_it_lands = [&](double value) { return impact ? Json(value) : Json(nullptr); };
   return {{"speed_m_per_s", fall.landing.speed},
           {"angle_deg", degrees(fall.landing.angle)},
-          {"impact_angle_deg", degrees(impact.angle)},
-          {"speed_ratio", impact.speed_ratio},
-          {"entry_speed_m_per_s", entry_speed},
-          {"impact_pressure_pa", impact.pressure},
+          {"impact_angle_deg", if_it_lands(impact ? degrees(impact->angle) : 0.0)},
+          {"speed_ratio", if_it_lands(impact ? impact->speed_ratio : 0.0)},
+          {"entry_speed_m_per_s", if_it_lands(entry_speed)},
+          {"impact_pressure_pa", if_it_lands(impact ? impact->pressure : 0.0)},
           {"reach_m", fall.reach},
           {"time_s", fall.time},
           {"leaves_pulley_at_deg", degrees(fall.leaves_at)},
@@ -51,7 +52,7 @@ Json feed_json(const FeedFall& fall, const Impact& impact, double entry_speed) {
 
 Json hood_passage_json(const HoodPassage& passage) {
   const Motion& motion = passage.motion;
-  const MotionState heaviest = motion.highest_load();
+  const ValueAt wear = stream_peak(motion, &StreamState::floor_wear);
   return {{"holds", passage.holds()},
           {"contact_at_entry", passage.contact},
           {"least_contact", passage.least_contact},
@@ -61,8 +62,8 @@ Json hood_passage_json(const HoodPassage& passage) {
           {"entry_speed_m_per_s", motion.body().entry_speed},
           {"exit_speed_m_per_s", motion.exit_speed()},
           {"max_depth_m", motion.highest(BulkStream::kDepth).value},
-          {"highest_wear_w_per_m2", stream_state(motion, heaviest.arc_length).floor_wear},
-          {"highest_wear_at_m", heaviest.arc_length},
+          {"highest_wear_w_per_m2", wear.value},
+          {"highest_wear_at_m", wear.arc_length},
           {"friction_loss_j_per_kg", motion.at(motion.distance()).friction_loss},
           {"travel_time_s", motion.travel_time()},
           {"fall_time_s", passage.fall_time},
@@ -71,7 +72,7 @@ Json hood_passage_json(const HoodPassage& passage) {
           {"landing_angle_deg", passage.landing.angle.degrees()}};
 }
 
-Json hood_json(const HoodShape& hood, const HoodPassage& passage, const Impact& impact) {
+Json hood_json(const HoodShape& hood, const HoodPassage& passage, const std::optional<Impact>& impact) {
   Json json = hood_passage_json(passage);
   const Centerline& arc = passage.motion.centerline();
   json["radius_m"] = hood.radius;
@@ -85,9 +86,9 @@ Json hood_json(const HoodShape& hood, const HoodPassage& passage, const Impact& 
   const CenterlinePoint edge = arc.at(arc.length());
   json["edge_run_m"] = edge.x - passage.start.x;
   json["edge_height_m"] = passage.start.y - edge.drop;
-  json["landing"] = {{"impact_angle_deg", impact.angle.degrees()},
-                     {"speed_ratio", impact.speed_ratio},
-                     {"impact_pressure_pa", impact.pressure}};
+  json["landing"] = {{"impact_angle_deg", impact ? Json(impact->angle.degrees()) : Json(nullptr)},
+                     {"speed_ratio", impact ? Json(impact->speed_ratio) : Json(nullptr)},
+                     {"impact_pressure_pa", impact ? Json(impact->pressure) : Json(nullptr)}};
   return json;
 }
 
@@ -109,17 +110,13 @@ void add_stream(Json& json, const Motion& motion) {
   if (!facts) return;
   json["stream"] = {{"max_depth_m", facts->deepest.value},
                     {"max_depth_at_m", facts->deepest.arc_length},
-                    {"exit_depth_m", number(facts->exit_depth)},
+                    {"exit_depth_m", lands(motion) ? number(facts->exit_depth) : Json(nullptr)},
                     {"highest_equivalent_friction", facts->equivalent_friction.value},
                     {"highest_equivalent_friction_at_m", facts->equivalent_friction.arc_length},
                     {"highest_filling", facts->filling.value},
                     {"highest_filling_at_m", facts->filling.arc_length},
                     {"choked", facts->choke.has_value()},
                     {"choke", choke_json(facts->choke)}};
-  if (!facts->stall) return;
-  json["status"] = "stalled";
-  json["stall"] = {{"arc_length_m", facts->stall->arc_length},
-                   {"missing_slope_deg", degrees(facts->stall->missing_slope)}};
 }
 
 }  // namespace glissade::report

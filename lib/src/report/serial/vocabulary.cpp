@@ -84,7 +84,9 @@ void add_body(Json& json, const Design& design) {
 }
 
 void add_ride(Json& json, const Motion& motion) {
-  const auto at_finish = [&](double value) { return motion.arrived() ? number(value) : Json(nullptr); };
+  const auto at_finish = [&](double value) {
+    return motion.arrived() && lands(motion) ? number(value) : Json(nullptr);
+  };
   const MotionState fastest = motion.highest_speed();
   const MotionState heaviest = motion.highest_load();
   const MotionState lightest = motion.lowest_load();

@@ -48,19 +48,14 @@ Body below_hood(const Body& body, const BulkStream& stream, double entry_speed) 
   return below;
 }
 
-double contact_at(const Motion& motion, double radius, double s) {
-  const double speed = motion.at(s).speed;
-  const double cosine = math::cos(motion.centerline().slope_angle(s));
-  return speed * speed / (motion.gravity() * radius * std::max(cosine, std::numeric_limits<double>::min()));
+/// v^2/(g R cos) below a hood of radius R.
+double contact_of(const Motion& motion, double radius, const LawState& at) {
+  const double cosine = math::cos(at.slope_angle);
+  return at.v / (motion.gravity() * radius * std::max(cosine, std::numeric_limits<double>::min()));
 }
 
 double least_contact(const Motion& motion, double radius) {
-  constexpr int kPlaces = 200;
-  double least = contact_at(motion, radius, 0.0);
-  for (int i = 1; i <= kPlaces; ++i)
-    least = std::min(
-        least, contact_at(motion, radius, std::min(motion.distance(), motion.distance() * i / kPlaces)));
-  return least;
+  return -motion.highest([&](const LawState& at) { return -contact_of(motion, radius, at); }).value;
 }
 
 }  // namespace
@@ -99,7 +94,7 @@ HoodPassage passage_of(const HoodShape& hood, const Landing& feed, const Body& b
 
   HoodPassage passage{impact, std::move(motion)};
   const Motion& ride = passage.motion;
-  passage.contact = contact_at(ride, hood.radius, 0.0);
+  passage.contact = contact_of(ride, hood.radius, ride.law_state(0.0));
   const CenterlinePoint edge = arc->at(arc->length());
   const CenterlinePoint leaves = arc->at(ride.distance());
   passage.start.y = edge.drop + hood.drop;

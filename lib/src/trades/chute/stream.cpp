@@ -10,65 +10,28 @@
 namespace glissade {
 namespace {
 
-double deepest_at(const BulkStream& stream, double s) {
-  const double wide = stream.width(s);
-  return std::min(wide, stream.shape().wall_height.value_or(wide));
-}
-
-/// The fullest place: with one width it is the deepest, otherwise it is looked for between the stations of the
-/// motion and the places where the width changes.
+/// The fullest place: with one width it is the deepest.
 ValueAt fullest(const Motion& motion, const BulkStream& stream, const ValueAt& deepest) {
-  if (stream.shape().width.is_constant()) {
-    return {deepest.value / deepest_at(stream, deepest.arc_length), deepest.arc_length};
-  }
-  const auto filling = [&](double s) { return stream.depth(s, motion.at(s).speed) / deepest_at(stream, s); };
-  ValueAt most{filling(0.0), 0.0};
-  const auto see = [&](double s) {
-    const double value = filling(s);
-    if (value > most.value) most = {value, s};
+  if (stream.shape().width.is_constant())
+    return {deepest.value / stream.deepest(deepest.arc_length), deepest.arc_length};
+  // Of depth over width and over the wall, each of which is smooth, the greater.
+  const auto depth = [&](const LawState& state) {
+    return stream.depth(state.arc_length, std::sqrt(state.v));
   };
-  constexpr int kPlaces = 400;
-  const double end = motion.distance();
-  for (int i = 1; i <= kPlaces; ++i) see(end * i / kPlaces);
-  for (const WidthAt& width : stream.shape().width.knots()) {
-    if (width.at > 0.0 && width.at < end) see(width.at);
+  QuantityPeak most =
+      motion.highest([&](const LawState& state) { return depth(state) / stream.width(state.arc_length); });
+  if (const auto& wall = stream.shape().wall_height) {
+    const QuantityPeak high = motion.highest([&](const LawState& state) { return depth(state) / *wall; });
+    if (high.value > most.value) most = high;
   }
-  // Golden section about the best of them.
-  const double step = end / kPlaces;
-  double low = std::max(0.0, most.arc_length - step);
-  double high = std::min(end, most.arc_length + step);
-  constexpr double kGolden = 0.6180339887498949;
-  for (int i = 0; i < 60; ++i) {
-    const double left = high - kGolden * (high - low);
-    const double right = low + kGolden * (high - low);
-    if (filling(left) >= filling(right)) {
-      high = right;
-    } else {
-      low = left;
-    }
-  }
-  see(0.5 * (low + high));
-  return most;
+  return {most.value, most.arc_length};
 }
-
-// Of the depth that chokes a stream: beyond, it has choked and not come to a stand.
-constexpr double kAsDeep = 1.0 - 1e-9;
 
 std::optional<Choke> choke_of(const Motion& motion, const BulkStream& stream) {
   const auto& end = motion.law_end();
   if (!end || end->what != "burden_depth_m") return {};
-  const double wide = stream.width(end->arc_length);
-  const double bound = deepest_at(stream, end->arc_length);
-  if (!(end->value >= kAsDeep * bound)) return {};
-  return Choke{end->arc_length, end->speed, end->value, bound, bound < wide};
-}
-
-std::optional<Stall> stall_of(const Motion& motion, const BulkStream& stream) {
-  const auto& end = motion.law_end();
-  if (!end || choke_of(motion, stream)) return {};
-  const double rubs = motion.quantity(BulkStream::kEquivalentFriction, end->arc_length);
-  const double missing = math::atan(rubs) - motion.centerline().slope_angle(end->arc_length);
-  return Stall{end->arc_length, Angle::from_radians(std::max(0.0, missing))};
+  const double bound = stream.deepest(end->arc_length);
+  return Choke{end->arc_length, end->speed, end->value, bound, bound < stream.width(end->arc_length)};
 }
 
 /// @throws InputError if the body is no stream
@@ -101,26 +64,38 @@ std::optional<StreamFacts> stream_facts(const Motion& motion) {
   if (motion.arrived()) facts.exit_depth = motion.quantity(BulkStream::kDepth, motion.distance());
   facts.filling = fullest(motion, *stream, facts.deepest);
   facts.choke = choke_of(motion, *stream);
-  facts.stall = stall_of(motion, *stream);
   if (facts.choke) facts.filling = {1.0, facts.choke->arc_length};
   return facts;
 }
 
-StreamState stream_state(const Motion& motion, double s) {
-  const BulkStream* const stream = &required_stream(motion.body());
-  const MotionState at = motion.at(s);
-  const StreamShape& shape = stream->shape();
-  const double width = stream->width(s);
+StreamState stream_state(const BulkStream& stream, const LawState& at) {
+  const StreamShape& shape = stream.shape();
+  const double s = at.arc_length;
   StreamState state;
-  state.depth = stream->depth(s, at.speed);
-  state.equivalent_friction = motion.quantity(BulkStream::kEquivalentFriction, s);
-  const double factor = stream->resistance(s, at.speed * at.speed).factor;
-  const double wall_friction = state.equivalent_friction / factor;
+  state.depth = stream.depth(s, std::sqrt(at.v));
+  state.equivalent_friction = at.friction * stream.resistance(s, at.v).factor;
   state.floor_pressure = shape.bulk_density * state.depth * at.normal_load;
-  const double rubbing = shape.mass_flow * wall_friction * at.normal_load / width;
+  const double rubbing = shape.mass_flow * at.friction * at.normal_load / stream.width(s);
   state.floor_wear = shape.slip_ratio * rubbing;
   state.wall_wear = 0.5 * shape.lateral_pressure_ratio * rubbing;
+  state.pressed = shape.slip_ratio * shape.mass_flow * at.normal_load / stream.width(s);
   return state;
+}
+
+StreamState stream_state(const Motion& motion, double s) {
+  return stream_state(required_stream(motion.body()), motion.law_state(s));
+}
+
+ValueAt stream_peak(const Motion& motion, double StreamState::*member) {
+  const BulkStream& stream = required_stream(motion.body());
+  const QuantityPeak peak =
+      motion.highest([&](const LawState& state) { return stream_state(stream, state).*member; });
+  return {peak.value, peak.arc_length};
+}
+
+double mean_floor_wear(const Motion& motion) {
+  const BulkStream& stream = required_stream(motion.body());
+  return motion.mean([&](const LawState& state) { return stream_state(stream, state).floor_wear; });
 }
 
 std::optional<double> choking_mass_flow(const CenterlinePtr& centerline, const Body& body, double gravity) {

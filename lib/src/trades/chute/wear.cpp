@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace glissade {
@@ -13,16 +14,18 @@ constexpr int kPlaces = 400;
 // Of its peak: where a floor wears less than this, a plate of its own pays little.
 constexpr double kWorthAPlate = 0.5;
 
-/// Places that a ride is looked at: evenly spread, and those of its extremes and of changes of width.
+/// Places that a ride is looked at: evenly spread, that of its peak, and both sides of each where it changes.
 std::vector<double> places_of(const Motion& motion) {
   const double end = motion.distance();
   std::vector<double> places;
   for (int i = 0; i <= kPlaces; ++i) places.push_back(std::min(end, end * i / kPlaces));
-  places.push_back(motion.highest_load().arc_length);
-  for (const WidthAt& width : stream_of(motion.body())->shape().width.knots()) {
-    if (width.at > 0.0 && width.at < end) places.push_back(width.at);
+  places.push_back(stream_peak(motion, &StreamState::floor_wear).arc_length);
+  for (const double at : motion.breaks()) {
+    places.push_back(std::nextafter(at, 0.0));
+    places.push_back(at);
   }
   std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
   return places;
 }
 
@@ -51,9 +54,20 @@ void join(std::vector<WearStretch>& stretches) {
   stretches = std::move(joined);
 }
 
-/// p v_slip, v_slip = K_c u.
-double pressed_at(const Motion& motion, const StreamState& state, double s) {
-  return state.floor_pressure * stream_of(motion.body())->shape().slip_ratio * motion.at(s).speed;
+/// Where on a ride the floor wears at least so much, with what lies between that and the place before.
+void add_stretches(const Motion& ride, double least, std::vector<WearStretch>& stretches) {
+  const std::vector<double> places = places_of(ride);
+  std::optional<double> from;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool worn = stream_state(ride, places[i]).floor_wear >= least;
+    if (worn && !from) {
+      const bool at_jump = i > 0 && places[i - 1] == std::nextafter(places[i], 0.0);
+      from = i == 0 || at_jump ? places[i] : places[i - 1];
+    }
+    if (worn && i + 1 < places.size()) continue;
+    if (from) stretches.push_back({*from, places[i]});
+    from.reset();
+  }
 }
 
 }  // namespace
@@ -62,35 +76,21 @@ WearFacts wear_of(const std::vector<const Motion*>& rides) {
   require_rides(rides);
   WearFacts facts;
   for (std::size_t i = 0; i < rides.size(); ++i) {
-    const Motion& motion = *rides[i];
-    for (const double s : places_of(motion)) {
-      const StreamState state = stream_state(motion, s);
-      if (state.wall_wear > facts.wall.value) facts.wall = {state.wall_wear, s};
-      if (state.floor_wear > facts.floor.value) {
-        facts.floor = {state.floor_wear, s};
-        facts.ride = i;
-      }
-      const double pressed = pressed_at(motion, state, s);
-      if (pressed > facts.pressed.value) {
-        facts.pressed = {pressed, s};
-        facts.pressed_ride = i;
-      }
+    const ValueAt floor = stream_peak(*rides[i], &StreamState::floor_wear);
+    const ValueAt wall = stream_peak(*rides[i], &StreamState::wall_wear);
+    const ValueAt pressed = stream_peak(*rides[i], &StreamState::pressed);
+    if (wall.value > facts.wall.value) facts.wall = wall;
+    if (floor.value > facts.floor.value) {
+      facts.floor = floor;
+      facts.ride = i;
+    }
+    if (pressed.value > facts.pressed.value) {
+      facts.pressed = pressed;
+      facts.pressed_ride = i;
     }
   }
-  const Motion& worst = *rides[facts.ride];
-  for (int i = 0; i < kPlaces; ++i)
-    facts.mean_floor += stream_state(worst, worst.distance() * (i + 0.5) / kPlaces).floor_wear / kPlaces;
-  for (const Motion* const ride : rides) {
-    const std::vector<double> places = places_of(*ride);
-    std::optional<double> from;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const bool worn = stream_state(*ride, places[i]).floor_wear >= kWorthAPlate * facts.floor.value;
-      if (worn && !from) from = i == 0 ? places[i] : places[i - 1];
-      if (worn && i + 1 < places.size()) continue;
-      if (from) facts.plates.push_back({*from, places[i]});
-      from.reset();
-    }
-  }
+  facts.mean_floor = mean_floor_wear(*rides[facts.ride]);
+  for (const Motion* const ride : rides) add_stretches(*ride, kWorthAPlate * facts.floor.value, facts.plates);
   join(facts.plates);
   return facts;
 }
@@ -115,7 +115,7 @@ std::vector<FloorLoad> floor_loads(const std::vector<const Motion*>& rides) {
       if (s > ride->distance()) continue;
       const StreamState state = stream_state(*ride, s);
       load.wear = std::max(load.wear, state.floor_wear);
-      load.pressed = std::max(load.pressed, pressed_at(*ride, state, s));
+      load.pressed = std::max(load.pressed, state.pressed);
     }
     loads.push_back(load);
   }

@@ -29,8 +29,6 @@ struct StreamFacts {
   ValueAt equivalent_friction;       ///< greatest mu (1 + K_v H/B)
   ValueAt filling;  ///< greatest H over the depth at which the stream chokes there; 1 where it does
   std::optional<Choke> choke;  ///< none: it does not
-  /// Where it stands before it is deep enough to choke, with the slope that it lacks there; none: it does not.
-  std::optional<Stall> stall;
 
   /// @return how much deeper the stream could be at its fullest place, as a share of what chokes it
   [[nodiscard]] double margin() const { return 1.0 - filling.value; }
@@ -44,11 +42,22 @@ struct StreamState {
   /// W_c = Q K_c mu N/B: rubbing power per area of the floor [W/m^2]; Roberts' abrasive wear factor
   double floor_wear = 0.0;
   double wall_wear = 0.0;  ///< W_c K_v/(2 K_c), of each side wall below the surface [W/m^2]
+  double pressed = 0.0;    ///< p v_slip = W_c/mu: by which a liner gets thinner [W/m^2]
 };
 
 /// @param s  as for Motion::at()
 /// @throws InputError if the body of the motion is no stream, or s lies outside the ride
 [[nodiscard]] StreamState stream_state(const Motion& motion, double s);
+/// @param at  of a ride of that stream
+[[nodiscard]] StreamState stream_state(const BulkStream& stream, const LawState& at);
+
+/// @param member  what of a StreamState
+/// @return its greatest value along the ride, as Motion::highest() finds it
+/// @throws InputError if the body of the motion is no stream
+[[nodiscard]] ValueAt stream_peak(const Motion& motion, double StreamState::*member);
+/// @param motion  of a stream
+/// @return the mean of W_c over its way [W/m^2]
+[[nodiscard]] double mean_floor_wear(const Motion& motion);
 
 /// @return the law of a body that is a stream; null for any other
 [[nodiscard]] const BulkStream* stream_of(const Body& body);
