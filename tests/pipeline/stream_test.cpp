@@ -361,6 +361,27 @@ limits: {highest_floor_wear: 60 W/m^2}
   CHECK(*rule->value > 4.2);
 }
 
+TEST_CASE("where friction changes along the track, limits tell the wear of each place as the wear does") {
+  const Design design = parse_design(R"(glissade: 1
+track: {start: {x: 0 m, z: 20 m}}
+body: {friction: [{from: 0 m, angle: 20 deg}, {from: 2 m, angle: 25 deg}], entry_speed: 2 m/s}
+stream: {mass_flow: 300 t/h, bulk_density: 1600 kg/m^3}
+centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 5 m}]}
+cross_section: {kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 10 mm}
+limits: {highest_floor_wear: 190 W/m^2}
+)",
+                                     "d.yaml");
+  const Track track = solve(design);
+  const double wear = 300.0 / 3.6 * 0.6 * std::tan(25.0 * kDegree) * 9.81 * std::cos(50.0 * kDegree) / 0.8;
+  const json told = json::parse(track_json(design, track));
+  CHECK(told["wear"]["highest_floor_wear_w_per_m2"].get<double>() == Approx(wear).epsilon(1e-9));
+  for (const json& row : told["limits"]) {
+    if (row["limit"] == "highest_floor_wear") {
+      CHECK(row["reached"].get<double>() == Approx(wear).epsilon(1e-9));
+    }
+  }
+}
+
 TEST_CASE("without pressure on the walls a stream rides as a sliding point does") {
   Chute chute = arc(2.0, 20.0, 60.0);
   chute.ratio = 0.0;
