@@ -7,6 +7,7 @@
 #include "support/random.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -68,5 +69,48 @@ TEST_CASE("trestles: one more stands where the places that are free would leave 
     INFO("spacing " << spacing);
     options.supports->spacing = spacing;
     CHECK(widest_span(plates(chute(), options)) <= spacing + 1e-9);
+  }
+}
+
+TEST_CASE("trestles: beams of any width stand clear of a steep track, its frames and what is welded to it") {
+  PlateOptions options;
+  options.split.longest = 2.9;
+  options.liner.emplace();
+  options.rim.emplace();
+  options.stiffeners.emplace();
+  options.supports.emplace();
+  SupportOptions& supports = *options.supports;
+  supports.ground = {{0.0, -8.2}};
+  supports.steepest = Angle::from_degrees(66.0);
+  const auto set = [&](double spacing, double tube) {
+    supports.spacing = spacing;
+    supports.tube = tube;
+    INFO("spacing " << spacing << ", tube " << tube);
+    // Throws InternalError where one reaches into another.
+    CHECK(!named(plates(chute(), options), "beam").empty());
+  };
+  for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+    options.floor = floor;
+    set(1.687, 100e-3);
+    for (const double tube : {80e-3, 110e-3, 150e-3}) set(1.9, tube);
+  }
+}
+
+TEST_CASE("trestles: base plates of both legs lie beside each other, however thin tubes and section are") {
+  const CoulombBrachistochrone track({0.95, 1.25}, Friction::from_angle(Angle::from_degrees(24.0)));
+  PlateOptions options;
+  options.round = RoundMake::mitred;
+  options.bend = {FacetRule::segment_angle, Angle::from_degrees(7.5).radians(), {}, {}};
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -5.0}};
+  for (const double tube : {40e-3, 50e-3, 60e-3}) {
+    INFO("tube " << tube);
+    options.supports->tube = tube;
+    const WorkshopBuild build = plates_of(track, section::Pipe{0.15, 2e-3}, options);
+    for (const ShopPart* const plate : named(build, "base_plate")) {
+      REQUIRE(plate->places.size() % 2 == 0);
+      const double apart = plate->places[0].origin.y - plate->places[1].origin.y;
+      CHECK(std::fabs(apart) >= bounds(plate->pattern->region.outline).width() + 10e-3 - 1e-9);
+    }
   }
 }

@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 
 #include "parts/bar_pieces.hpp"
+#include "parts/body_edges.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/bolts.hpp"
 #include "parts/ground.hpp"
@@ -23,6 +24,8 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace glissade::parts {
 namespace {
@@ -32,7 +35,8 @@ constexpr double kSaddleLeast = 30e-3;  // its height where it is lowest [m]
 constexpr double kSaddle = 8e-3;        // its thickness [m]
 constexpr double kPlate = 10e-3;        // thickness of a base plate [m]
 constexpr double kOffLap = 1e-3;        // of a saddle that stands beside laps [m]
-constexpr double kBaseGap = 10e-3;      // between those of two trestles [m]
+constexpr double kBaseGap = 10e-3;      // between two of them [m]
+constexpr double kOffBeam = 2e-3;  // from the track above it: what a weld of the floor's corner takes [m]
 constexpr double kAnchorInset = 25e-3;  // of anchor holes from the plate's edges [m]
 constexpr double kBrace = 6e-3;         // flat bar 50 x 6
 constexpr double kBraceWidth = 50e-3;
@@ -139,6 +143,27 @@ double base_side(const SupportOptions& supports) {
   return std::max(150e-3, supports.tube + 90e-3);
 }
 
+/// The lowest of the outside's lowest line within so much of an x.
+/// @param s       of the track, about there
+/// @param height  of the outside at that x, above the floor line
+double lowest_about(const Shell& shell, double s, double height, double x, double within) {
+  // Lines that are lower than the saddles' lie above the beam from another stretch of the track.
+  constexpr double kLeastLevel = 0.2;  // cosine of the steepest slope that is looked at
+  const TrackFrame frame = frame_of(shell, s);
+  const double reach = kSaddleHalf + (std::fabs((height - shell.lowest) * frame.along.y) + within) /
+                                         std::max(kLeastLevel, frame.along.x);
+  double low = std::numeric_limits<double>::infinity();
+  constexpr int kPlaces = 100;
+  for (int k = -kPlaces; k <= kPlaces; ++k) {
+    const TrackFrame here = frame_of(shell, std::clamp(s + reach * k / kPlaces, 0.0, shell.track.length()));
+    const Vec2 point = here.at + shell.lowest * here.up;
+    // Between two of them the line is no lower than at the one beyond.
+    const double step = reach / kPlaces * here.along.x;
+    if (std::fabs(point.x - x) <= within + step) low = std::min(low, point.y);
+  }
+  return low;
+}
+
 Trestle trestle_at(const Shell& shell, double at, const Saddles& saddles) {
   const SupportOptions& supports = *shell.options.supports;
   Trestle trestle;
@@ -150,19 +175,12 @@ Trestle trestle_at(const Shell& shell, double at, const Saddles& saddles) {
   };
   const TrackFrame frame = frame_of(shell, at);
   trestle.x = (frame.at + height * frame.up).x;
-  // Lines that are lower than the saddles' lie above the beam from another stretch of the track.
-  constexpr double kLeastLevel = 0.2;  // cosine of the steepest slope that is looked at
-  const double reach =
-      saddles.half + (std::fabs((height - shell.lowest) * frame.along.y) + kSaddleHalf + supports.tube) /
-                         std::max(kLeastLevel, frame.along.x);
   double low = std::min({below(at - saddles.half).y, below(at).y, below(at + saddles.half).y});
-  constexpr int kPlaces = 100;
-  for (int k = -kPlaces; k <= kPlaces && height > shell.lowest; ++k) {
-    const double s = std::clamp(at + reach * k / kPlaces, 0.0, shell.track.length());
-    const Vec2 point = below(s);
-    if (std::fabs(point.x - trestle.x) <= kSaddleHalf + supports.tube) low = std::min(low, point.y);
-  }
-  trestle.beam = low - kSaddleLeast;
+  if (height > shell.lowest)
+    low = std::min(low, lowest_about(shell, at, height, trestle.x, kSaddleHalf + supports.tube));
+  // Below a slope the beam's edge downstream is nearer to the track than the saddles, where it is wider than they are long.
+  trestle.beam = std::min(low - kSaddleLeast,
+                          lowest_about(shell, at, height, trestle.x, 0.5 * supports.tube) - kOffBeam);
   // The lower of the places of both edges of the base plate: grout fills the rest.
   const double half = 0.5 * base_side(supports);
   trestle.ground =
@@ -221,9 +239,12 @@ Measures measures_of(const Shell& shell, const Saddles& saddles) {
     widest = std::max(widest, std::fabs(point.x));
   const double aside = std::max(saddles.aside[0], -saddles.aside[1]);
   Measures measures;
-  measures.beam_length =
-      std::max({2.0 * (aside + kBeyondSaddle), 4.0 * supports.tube, 2.0 * kLeastSpread * widest});
-  measures.leg_aside = 0.5 * measures.beam_length - 0.5 * supports.tube - 10e-3;
+  const double beyond_leg = 0.5 * supports.tube + 10e-3;
+  // Base plates of both legs lie beside each other.
+  const double least_aside = 0.5 * (base_side(supports) + kBaseGap);
+  measures.beam_length = std::max({2.0 * (aside + kBeyondSaddle), 4.0 * supports.tube,
+                                   2.0 * kLeastSpread * widest, 2.0 * (least_aside + beyond_leg)});
+  measures.leg_aside = 0.5 * measures.beam_length - beyond_leg;
   return measures;
 }
 
@@ -408,40 +429,126 @@ struct Standing {
   Trestle trestle;
 };
 
+/// Frames, stiffeners and other plates square to the track, and angles, seen from the side: below a slope they lean over beams.
+class SideView {
+ public:
+  explicit SideView(const Shell& shell) : placement_(shell.placement) {
+    for (const ShopPart& part : shell.workshop.parts) {
+      for (const Frame& place : part.places) {
+        if (const auto* const prism = std::get_if<Prism>(&part.body)) add(*prism, place);
+        if (!std::holds_alternative<AngleBar>(part.body)) continue;
+        for (const EdgeLine& line : edge_lines(part.body, 0.0))
+          lines_.push_back({seen(place.to_space(line.from)), seen(place.to_space(line.to))});
+      }
+    }
+  }
+
+  /// @return whether nothing of it lies where beam and legs of a trestle stand
+  [[nodiscard]] bool is_clear(const Trestle& trestle, double tube) const {
+    constexpr double kAround = 1e-3;  // taste: of beams [m]
+    const double half = 0.5 * tube + kAround;
+    const Vec2 low{trestle.x - half, trestle.ground};
+    const Vec2 high{trestle.x + half, trestle.beam + kAround};
+    return std::none_of(lines_.begin(), lines_.end(),
+                        [&](const auto& line) { return meets(line[0], line[1], low, high); });
+  }
+
+ private:
+  [[nodiscard]] Vec2 seen(Vec3 point) const {
+    const Vec3 away = point - in_space(placement_, {});
+    return {dot(away, along(placement_)), away.z};
+  }
+  void add(const Prism& prism, const Frame& place) {
+    constexpr double kSquare = 1e-6;  // rounding
+    const Vec3 aside = across(placement_);
+    if (std::fabs(dot(place.z, aside)) > kSquare) return;
+    const Vec3 up = cross(aside, place.z);
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const Vec2 corner : flattened(prism.region.outline, 1e-4)) {
+      const double level = dot(corner.x * place.x + corner.y * place.y, up);
+      low = std::min(low, level);
+      high = std::max(high, level);
+    }
+    const Vec3 far = prism.depth * place.z;
+    const std::array<Vec2, 4> corners = {seen(place.origin + low * up), seen(place.origin + high * up),
+                                         seen(place.origin + high * up + far),
+                                         seen(place.origin + low * up + far)};
+    for (std::size_t i = 0; i < 4; ++i) lines_.push_back({corners[i], corners[(i + 1) % 4]});
+  }
+  /// Whether some of a segment lies in a rectangle.
+  static bool meets(Vec2 from, Vec2 to, Vec2 low, Vec2 high) {
+    double first = 0.0;
+    double last = 1.0;
+    const auto cut = [&](double start, double way, double least, double most) {
+      if (way == 0.0) return start >= least && start <= most;
+      const double a = (least - start) / way;
+      const double b = (most - start) / way;
+      first = std::max(first, std::min(a, b));
+      last = std::min(last, std::max(a, b));
+      return first <= last;
+    };
+    return cut(from.x, to.x - from.x, low.x, high.x) && cut(from.y, to.y - from.y, low.y, high.y);
+  }
+
+  const Placement& placement_;
+  std::vector<std::array<Vec2, 2>> lines_;
+};
+
 /// Trestles beside each other, none on what is taken or on another one's base plates.
 class Row {
  public:
-  explicit Row(const Shell& shell) : shell_(shell), taken_(shell.taken) {}
+  Row(const Shell& shell, const SideView& view) : shell_(shell), view_(view), taken_(shell.taken) {}
 
   /// Sets one at the free place nearest to one, unless it lies outside a span.
   /// @return whether there is one there
   bool set(double about, const Span& within) {
-    const SupportOptions& supports = *shell_.options.supports;
-    const double clear = clear_of(shell_, about, saddles_at(shell_, about, 0.0).height[0]);
-    const auto place = free_place(shell_, taken_, about, clear);
-    if (!place || place->at < within.from || place->at > within.to) return false;
-    if (shell_.track.at(place->at).slope_angle > supports.steepest.radians()) return false;
-    const Saddles saddles = saddles_at(shell_, place->at, place->half);
-    if (!seat_line(shell_, place->at, place->half, saddles.height[0]) ||
-        !seat_line(shell_, place->at, place->half, saddles.height[1]))
-      return false;
-    const Trestle trestle = trestle_at(shell_, place->at, saddles);
-    // Two of them on the only places that are free stand on each other's base plates.
-    const double apart = base_side(supports) + kBaseGap;
-    if (std::any_of(all_.begin(), all_.end(),
-                    [&](const Standing& other) { return std::fabs(trestle.x - other.trestle.x) < apart; }))
-      return false;
-    taken_.add(place->at - clear, place->at + clear);
-    const auto after = std::find_if(all_.begin(), all_.end(),
-                                    [&](const Standing& other) { return other.place.at > place->at; });
-    all_.insert(after, {*place, clear, saddles, trestle});
-    return true;
+    constexpr double kFarther =
+        10e-3;                  // taste: that one keeps off more, where a frame stands over its beam [m]
+    constexpr int kTries = 12;  // budget
+    double clear = clear_of(shell_, about, saddles_at(shell_, about, 0.0).height[0]);
+    for (int k = 0; k < kTries; ++k, clear += kFarther) {
+      const auto one = standing_near(about, within, clear);
+      if (!one) return false;
+      // Where it is steeper there than where it was asked for, frames lean farther over it.
+      if (!view_.is_clear(one->trestle, shell_.options.supports->tube)) continue;
+      return add(*one);
+    }
+    return false;
   }
 
   [[nodiscard]] const std::vector<Standing>& all() const { return all_; }
 
  private:
+  /// @return one that keeps so far off what is taken; none where there is no place for it
+  [[nodiscard]] std::optional<Standing> standing_near(double about, const Span& within, double clear) const {
+    const auto place = free_place(shell_, taken_, about, clear);
+    if (!place || place->at < within.from || place->at > within.to) return std::nullopt;
+    if (shell_.track.at(place->at).slope_angle > shell_.options.supports->steepest.radians())
+      return std::nullopt;
+    const Saddles saddles = saddles_at(shell_, place->at, place->half);
+    if (!seat_line(shell_, place->at, place->half, saddles.height[0]) ||
+        !seat_line(shell_, place->at, place->half, saddles.height[1]))
+      return std::nullopt;
+    return Standing{*place, clear, saddles, trestle_at(shell_, place->at, saddles)};
+  }
+
+  bool add(const Standing& one) {
+    // Two of them on the only places that are free stand on each other's base plates.
+    const double apart = base_side(*shell_.options.supports) + kBaseGap;
+    if (std::any_of(all_.begin(), all_.end(), [&](const Standing& other) {
+          return std::fabs(one.trestle.x - other.trestle.x) < apart;
+        }))
+      return false;
+    taken_.add(one.place.at - one.clear, one.place.at + one.clear);
+    const auto after = std::find_if(all_.begin(), all_.end(),
+                                    [&](const Standing& other) { return other.place.at > one.place.at; });
+    all_.insert(after, one);
+    return true;
+  }
+
   const Shell& shell_;
+  const SideView& view_;
   TakenUp taken_;
   std::vector<Standing> all_;  ///< from upstream to downstream
 };
@@ -453,18 +560,18 @@ double place_in(const Shell& shell, double k, double gaps) {
 }
 
 /// In so many gaps, as even as what is taken allows; those that find no place are left out.
-std::vector<Standing> evenly_standing(const Shell& shell, double gaps) {
-  Row row(shell);
+std::vector<Standing> evenly_standing(const Shell& shell, const SideView& view, double gaps) {
+  Row row(shell, view);
   for (double k = 0.0; k <= gaps; k += 1.0) (void)row.set(place_in(shell, k, gaps), kAnywhere);
   return row.all();
 }
 
 /// From the finish on; where the free place nearest to an even one is too far from the trestle before, the farthest that is
 /// not; one more where spans are left that are too wide.
-std::vector<Standing> closely_standing(const Shell& shell, double gaps) {
+std::vector<Standing> closely_standing(const Shell& shell, const SideView& view, double gaps) {
   constexpr double kStep = 10e-3;  // in which places are looked for [m]
   const double spacing = shell.options.supports->spacing;
-  Row row(shell);
+  Row row(shell, view);
   const auto set_between = [&](double from, double to, const Span& within) {
     for (double at = from; at <= to; at += kStep) {
       if (row.set(at, within)) return true;
@@ -507,10 +614,13 @@ std::vector<Standing> standing(const Shell& shell) {
   constexpr double kMore = 4.0;
   const double spacing = shell.options.supports->spacing;
   const double gaps = std::max(1.0, std::ceil((shell.track.length() - 2.0 * kApart) / spacing - 1e-9));
-  std::vector<std::vector<Standing>> rows{evenly_standing(shell, gaps)};
+  const SideView view(shell);
+  std::vector<std::vector<Standing>> rows{evenly_standing(shell, view, gaps)};
   if (rows.front().empty() || widest_span(rows.front()) <= spacing) return rows.front();
-  for (double more = 1.0; more <= kMore; more += 1.0) rows.push_back(evenly_standing(shell, gaps + more));
-  for (double more = 0.0; more <= kMore; more += 1.0) rows.push_back(closely_standing(shell, gaps + more));
+  for (double more = 1.0; more <= kMore; more += 1.0)
+    rows.push_back(evenly_standing(shell, view, gaps + more));
+  for (double more = 0.0; more <= kMore; more += 1.0)
+    rows.push_back(closely_standing(shell, view, gaps + more));
   double highest = std::numeric_limits<double>::infinity();
   for (const auto& row : rows) highest = row.empty() ? highest : std::min(highest, row.front().place.at);
   const auto widest = [&](const std::vector<Standing>& row) {
