@@ -275,6 +275,32 @@ TEST_CASE("seams: random tracks, sections and strips make plates that add up, wi
   }
 }
 
+TEST_CASE("seams of sections go beside openings and their lids, which lie in one strip") {
+  const section::Trapezoid trapezoid{WidthLaw(1.3), 0.35, Angle::from_degrees(25.0), 5e-3};
+  PlateOptions options;
+  options.inspection = {{3.0, 0.2, 0.15, 8}};
+  // Of 386 mm: strips of 193 mm, or less, hold no lid of 210 mm.
+  for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+    for (const double widest : {0.22, 0.24, 0.3}) {
+      INFO("widest " << widest);
+      options.floor = floor;
+      options.split.widest = widest;
+      const WorkshopBuild build = plates_of(chute(), trapezoid, options);
+      std::size_t opened = 0;
+      for (const ShopPart* const wall : named(build, "left_wall")) {
+        for (const ArcPath& cutout : wall->pattern->region.cutouts)
+          opened += bounds(cutout).width() > 0.1 ? 1 : 0;
+      }
+      CHECK(opened == 1);
+    }
+    options.split.widest = 0.15;
+    CHECK(
+        refusal_of([&] { return plates_of(chute(), trapezoid, options); }) ==
+        "split.widest|the left_wall, 388.9 mm wide, leaves no place for seams that make strips of 150 mm or "
+        "less|Seams keep off laps, slots, openings and holes.|widest: 220 mm\n");
+  }
+}
+
 TEST_CASE("seams: what cannot be cut is refused with place, value, bound and a way out") {
   PlateOptions options;
   options.split.widest = 20e-3;
@@ -292,7 +318,7 @@ TEST_CASE("seams: what cannot be cut is refused with place, value, bound and a w
   holes.liner->tile_width = 70e-3;
   CHECK(refusal(holes).find(
             "split.widest|the floor, 400 mm wide, leaves no place for seams that make strips of 60 "
-            "mm or less|Seams keep off laps, slots, openings and holes.|a larger widest") !=
+            "mm or less|Seams keep off laps, slots, openings and holes.|widest: 400 mm") !=
         std::string::npos);
   section::UChannel channel;
   channel.width = WidthLaw({{1.0, 1.5}, {4.0, 0.7}});

@@ -72,50 +72,71 @@ double widest_strip(double width, bool straight, const SplitOptions& split) {
 
 namespace {
 
-/// The seams of one unit.
+/// The seams of one unit; none where no even division keeps off what is taken.
 /// @param stagger  by which they lie off even places, at most a quarter of a strip [m]
 /// @param least    so many strips at least
-std::vector<double> seams_of_unit(const std::string& plate, const Span& across, bool straight,
-                                  const std::vector<Span>& taken, const SplitOptions& split, double stagger,
-                                  std::size_t least) {
+std::optional<std::vector<double>> seams_of_unit(const Span& across, double most,
+                                                 const std::vector<Span>& taken, double stagger,
+                                                 std::size_t least) {
   const double width = across.to - across.from;
-  const double most = widest_strip(width, straight, split);
-  if (!(width > most + kTouch)) return {};
+  if (!(width > most + kTouch)) return std::vector<double>();
   // Also of a sheet that has no room at all.
   const double even = most > 0.0 ? std::max(std::ceil(width / most - 1e-9), static_cast<double>(least)) : 0.0;
   for (int more = 0; even > 1.0 && even < 1e3 && more <= kMoreStrips; ++more) {
-    const auto seams =
+    auto seams =
         even_seams(across, static_cast<std::size_t>(even) + static_cast<std::size_t>(more), taken, stagger);
-    if (seams && widest_of(strips_between_seams(across, *seams)) <= most + kTouch) return *seams;
+    if (seams && widest_of(strips_between_seams(across, *seams)) <= most + kTouch) return seams;
   }
-  throw InputError({split.widest ? "split.widest" : "split.sheet",
-                    "the " + plate + ", " + length_text(width, 4) +
-                        " wide, leaves no place for seams that make strips of " + length_text(most, 4) +
-                        " or less",
-                    "Seams keep off laps, slots, openings and holes.",
-                    split.widest ? "a larger widest" : "a larger sheet"});
+  return std::nullopt;
+}
+
+std::optional<Seams> seams_within(const Span& across, double most, const std::vector<Span>& taken,
+                                  bool welded) {
+  if (!welded) {
+    const auto seams = seams_of_unit(across, most, taken, 0.0, 1);
+    if (!seams) return std::nullopt;
+    return Seams{*seams, *seams};
+  }
+  std::size_t least = 1;
+  while (true) {
+    const auto even = seams_of_unit(across, most, taken, kSeamStagger, least);
+    if (!even) return std::nullopt;
+    const double strip = (across.to - across.from) / static_cast<double>(even->size() + 1);
+    const double apart = std::min(kLeastApart, kApartShare * strip);
+    std::vector<Span> both = taken;
+    for (const double seam : *even) both.push_back({seam - apart, seam + apart});
+    const auto odd = seams_of_unit(across, most, both, -kSeamStagger, least);
+    if (!odd) return std::nullopt;
+    if (odd->size() == even->size()) return Seams{*even, *odd};
+    least = std::max(odd->size(), even->size()) + 1;
+  }
 }
 
 }  // namespace
 
 Seams seams_across(const std::string& plate, const Span& across, bool straight,
                    const std::vector<Span>& taken, const SplitOptions& split, bool welded) {
-  if (!welded) {
-    const std::vector<double> seams = seams_of_unit(plate, across, straight, taken, split, 0.0, 1);
-    return {seams, seams};
+  const double width = across.to - across.from;
+  const double most = widest_strip(width, straight, split);
+  if (auto seams = seams_within(across, most, taken, welded)) return *std::move(seams);
+  std::string hint = split.widest ? "a larger widest" : "a larger sheet";
+  SplitOptions wider = split;
+  constexpr double kTried = 10e-3;  // taste: in which wider strips are tried [m]
+  for (double tried = std::ceil(most / kTried + 1e-9); split.widest && kTried * tried < width + kTried;
+       tried += 1.0) {
+    wider.widest = kTried * tried;
+    const double room = widest_strip(width, straight, wider);
+    // The sheet bounds them from there on.
+    if (room < *wider.widest) break;
+    if (!seams_within(across, room, taken, welded)) continue;
+    hint = "widest: " + length_text(*wider.widest);
+    break;
   }
-  std::size_t least = 1;
-  while (true) {
-    Seams seams;
-    seams.even = seams_of_unit(plate, across, straight, taken, split, kSeamStagger, least);
-    const double strip = (across.to - across.from) / static_cast<double>(seams.even.size() + 1);
-    const double apart = std::min(kLeastApart, kApartShare * strip);
-    std::vector<Span> both = taken;
-    for (const double seam : seams.even) both.push_back({seam - apart, seam + apart});
-    seams.odd = seams_of_unit(plate, across, straight, both, split, -kSeamStagger, least);
-    if (seams.odd.size() == seams.even.size()) return seams;
-    least = std::max(seams.odd.size(), seams.even.size()) + 1;
-  }
+  throw InputError({split.widest ? "split.widest" : "split.sheet",
+                    "the " + plate + ", " + length_text(width, 4) +
+                        " wide, leaves no place for seams that make strips of " + length_text(most, 4) +
+                        " or less",
+                    "Seams keep off laps, slots, openings and holes.", std::move(hint)});
 }
 
 std::vector<Span> strips_between_seams(const Span& across, const std::vector<double>& seams) {

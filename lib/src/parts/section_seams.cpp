@@ -7,10 +7,12 @@
 #include "parts/liner_tiles.hpp"
 #include "parts/seams.hpp"
 #include "parts/strip_fittings.hpp"
+#include "parts/strip_openings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,7 +39,9 @@ bool is_welded(const PlateSection& section, const PlateOptions& options) {
 }
 
 /// Seams of a plate of one width.
-Seams even_seams(const PlateSection& section, std::size_t index, const PlateOptions& options) {
+/// @param lid  that they keep off, if it lies on that plate
+Seams even_seams(const PlateSection& section, std::size_t index, const PlateOptions& options,
+                 const std::optional<LidStretch>& lid) {
   const SectionPlate& plate = section.plates[index];
   Span across = across_of(plate);
   const double off = kOffCorner * section.thickness + options.corners.clearance;
@@ -49,6 +53,7 @@ Seams even_seams(const PlateSection& section, std::size_t index, const PlateOpti
     taken.push_back({across.from, across.from + lap});
     taken.push_back({across.to - lap, across.to});
   }
+  if (lid && lid->plate == index) taken.push_back(lid->across);
   for (const LinedFace& face : section.lined) {
     if (face.plate != index) continue;
     const Lane lane = lane_of(section, face);
@@ -117,12 +122,13 @@ Seams seams_of_widening(const PlateSection& section, const SectionPlate& plate, 
   return {floor.seams(best, aside), floor.seams(best, -aside)};
 }
 
-Seams seams_of(const PlateSection& section, std::size_t index, const PlateOptions& options) {
+Seams seams_of(const PlateSection& section, std::size_t index, const PlateOptions& options,
+               const std::optional<LidStretch>& lid) {
   const SectionPlate& plate = section.plates[index];
   const bool both_sides = plate.face_from.x * plate.face_to.x < 0.0;
   const bool welded = is_welded(section, options);
   if (section.widths && both_sides) return seams_of_widening(section, plate, options.split, welded);
-  return even_seams(section, index, options);
+  return even_seams(section, index, options, lid);
 }
 
 /// The plate between seams, whose edges there are square.
@@ -144,15 +150,13 @@ std::vector<SectionPlate> cut(const SectionPlate& plate, double thickness, const
   return strips;
 }
 
-}  // namespace
-
-PlateSection with_seams(PlateSection section, const PlateOptions& options) {
-  PlateSection whole = std::move(section);
+PlateSection seamed(const PlateSection& whole, const PlateOptions& options,
+                    const std::optional<LidStretch>& lid) {
   PlateSection result = whole;
   result.plates.clear();
   std::vector<SectionPlate> odd;
   for (std::size_t i = 0; i < whole.plates.size(); ++i) {
-    const Seams both = seams_of(whole, i, options);
+    const Seams both = seams_of(whole, i, options, lid);
     const std::vector<double>& seams = both.even;
     const std::size_t first = result.plates.size();
     for (std::size_t k = 0; k < whole.lined.size(); ++k) {
@@ -184,6 +188,19 @@ PlateSection with_seams(PlateSection section, const PlateOptions& options) {
   }
   if (is_welded(whole, options) && !result.seams.empty()) result.staggered = std::move(odd);
   return result;
+}
+
+}  // namespace
+
+PlateSection with_seams(const PlateSection& section, const PlateOptions& options) {
+  PlateSection even = seamed(section, options, std::nullopt);
+  // An opening and its lid lie in the widest strip. Where none holds them the seams go beside the lid.
+  if (!strip_opening_problems(section, options).empty() || strip_opening_problems(even, options).empty())
+    return even;
+  PlateSection beside = seamed(section, options, lid_stretch(section, options));
+  if (auto issues = strip_opening_problems(beside, options); !issues.empty())
+    throw InputError(std::move(issues));
+  return beside;
 }
 
 }  // namespace glissade::parts

@@ -207,6 +207,17 @@ bool clear_of_frames(const StripJob& job, const Span& unit, const StripWindow& w
 
 }  // namespace
 
+std::optional<LidStretch> lid_stretch(const PlateSection& section, const PlateOptions& options) {
+  if (options.inspection.empty()) return std::nullopt;
+  const auto side = side_for_openings(section, options);
+  if (!side) return std::nullopt;
+  double half = 0.0;
+  for (const InspectionOptions& opening : options.inspection)
+    half = std::max(half, 0.5 * opening.height + lid_lap(opening, options.shop));
+  const double middle = 0.5 * (side->room.from + side->room.to);
+  return LidStretch{side->plate, {middle - half, middle + half}};
+}
+
 std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::size_t index,
                                     const std::vector<double>& breaks) {
   std::vector<StripWindow> windows;

@@ -6,6 +6,7 @@
 #include "parts/strip_shape.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace glissade::parts {
@@ -32,6 +33,14 @@ struct StripWindow {
 
 /// @throws InputError where an opening is not on the track, or two of them meet
 void require_openings_on_track(const StripJob& job);
+
+/// What lids take of the plate that is opened.
+struct LidStretch {
+  std::size_t plate = 0;
+  Span across;  ///< along the plate's face, from `face_from`
+};
+/// @return that of the highest lid; none of a section without openings, or without a side for them
+[[nodiscard]] std::optional<LidStretch> lid_stretch(const PlateSection& section, const PlateOptions& options);
 
 void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows, Workshop& workshop);
 
