@@ -413,6 +413,25 @@ TEST_CASE("shells: trestles stand no nearer than their base plates are wide") {
   }
 }
 
+TEST_CASE("shells: lugs keep off stiffeners that are square to another tube up to their eyes") {
+  const CoulombBrachistochrone track({0.95, 1.25}, Friction::from_angle(Angle::from_degrees(24.0)));
+  PlateOptions options;
+  options.round = RoundMake::mitred;
+  options.bend = {FacetRule::segment_angle, Angle::from_degrees(7.5).radians(), {}, {}};
+  options.split.longest = 1.2;
+  options.flanges.thickness = 4e-3;
+  options.stiffeners.emplace();
+  options.stiffeners->thickness = 13e-3;
+  options.lifting.emplace();
+  options.lifting->thickness = 16e-3;
+  for (const double spacing : {0.2, 0.227, 0.254, 0.281}) {
+    INFO(spacing);
+    options.stiffeners->spacing = spacing;
+    // Throws InternalError where parts clash.
+    CHECK(pieces(plates_of(track, section::Pipe{0.15, 2e-3}, options), "lug") > 0);
+  }
+}
+
 TEST_CASE("shells: lugs on bent sides as high as the radius of the first flats stand clear of the frame") {
   const WidthLaw widths(std::vector<WidthAt>{{0.0, 1.665}, {1.888, 1.665}, {3.167, 1.892}});
   PlateOptions options;

@@ -782,8 +782,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   add_tube_lids(job, units, openings, workshop, taken);
   const Shell shell =
       pipe_shell(track, pipe, side, options, placement, facets, build.joints, workshop, taken);
-  add_stiffeners(shell);
-  add_lugs(shell);
+  add_lugs(shell, add_stiffeners(shell));
   add_supports(shell, workshop.setting_out);
   for (SettingOutPoint& row : mitres(job, facets, build.joints))
     workshop.setting_out.push_back(std::move(row));

@@ -128,7 +128,7 @@ void add_fittings(const Job& job, const std::vector<Unit>& units, Workshop& work
   if (job.channel.wall_height > 0.0)
     add_channel_lugs(fitting);
   else
-    add_lugs(shell);
+    add_lugs(shell, {});
   // What is lifted stands on none of them.
   add_supports(shell, workshop.setting_out);
   in_order(workshop.setting_out);

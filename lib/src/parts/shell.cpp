@@ -2,6 +2,7 @@
 
 #include "glissade/core/math.hpp"
 
+#include "core/plane_geometry.hpp"
 #include "parts/body_moments.hpp"
 #include "parts/nearest_place.hpp"
 #include "parts/plate_unit.hpp"
@@ -136,6 +137,43 @@ void take_frames(const Shell& shell) {
     shell.taken.add(unit.from, unit.from + frame);
     shell.taken.add(unit.to - frame, unit.to);
   }
+}
+
+bool stand_apart(const StandingPlate& a, const StandingPlate& b) {
+  constexpr double kWeldBetween = 2e-3;  // taste: the least that frames and lugs leave each other [m]
+  const auto end = [](const StandingPlate& plate, double height) {
+    return plate.middle.at + height * plate.middle.up;
+  };
+  const Vec2 low_a = end(a, a.heights.from);
+  const Vec2 high_a = end(a, a.heights.to);
+  const Vec2 low_b = end(b, b.heights.from);
+  const Vec2 high_b = end(b, b.heights.to);
+  if (core::segment_crossing(low_a, high_a, low_b, high_b)) return false;
+  const double least = std::min(
+      {core::distance_to_segment(low_a, low_b, high_b), core::distance_to_segment(high_a, low_b, high_b),
+       core::distance_to_segment(low_b, low_a, high_a), core::distance_to_segment(high_b, low_a, high_a)});
+  return least >= a.half + b.half + kWeldBetween;
+}
+
+bool all_apart(const StandingPlate& plate, const std::vector<StandingPlate>& others) {
+  return std::all_of(others.begin(), others.end(),
+                     [&](const StandingPlate& other) { return stand_apart(plate, other); });
+}
+
+std::vector<StandingPlate> standing_frames(const Shell& shell) {
+  const FlangeOptions& flange = shell.options.flanges;
+  if (!flange.wanted) return {};
+  const double out = flange.gap + flange.width;
+  const double half = 0.5 * flange.along();
+  std::vector<StandingPlate> frames;
+  for (const Span& unit : shell.units) {
+    for (const double sense : {1.0, -1.0}) {
+      TrackFrame frame = frame_at(shell.track, sense > 0.0 ? unit.from : unit.to);
+      frame.at = frame.at + sense * half * frame.along;
+      frames.push_back({frame, half, {shell.lowest - out, shell.highest + (shell.ring ? out : 0.0)}});
+    }
+  }
+  return frames;
 }
 
 std::vector<UnitMass> masses_of(const Workshop& workshop, const ArcSpline& track, const Placement& placement,

@@ -8,6 +8,7 @@
 #include "parts/section_outside.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct Shell {
 /// @return whether the shell keeps within a gap of straight for `half` to both sides of a place
 [[nodiscard]] bool keeps_straight(const Shell& shell, double s, double half, double gap);
 
+/// Cost of a place that is none.
+inline constexpr double kNoPlace = std::numeric_limits<double>::infinity();
 /// What of a place is asked for, besides being free.
 struct SeatNeed {
   double taken = 0.0;     ///< half of what it takes up [m]
@@ -69,10 +72,24 @@ struct SeatNeed {
 /// Marks what frames take of every unit.
 void take_frames(const Shell& shell);
 
+/// A plate square to the track, seen from the side.
+struct StandingPlate {
+  TrackFrame middle;  ///< of its thickness, on the floor line
+  double half = 0.0;  ///< of its thickness [m]
+  Span heights;       ///< above the floor line
+};
+/// @return whether two of them leave room for a weld, as far as they reach: square to straights that meet at a bend they lean together
+[[nodiscard]] bool stand_apart(const StandingPlate& a, const StandingPlate& b);
+[[nodiscard]] bool all_apart(const StandingPlate& plate, const std::vector<StandingPlate>& others);
+/// @return the frames at both ends of every unit
+[[nodiscard]] std::vector<StandingPlate> standing_frames(const Shell& shell);
+
 /// Plates round the shell between its ends; of rings in two halves.
-void add_stiffeners(const Shell& shell);
+/// @return where they stand
+std::vector<StandingPlate> add_stiffeners(const Shell& shell);
 /// Lugs beside the centre of gravity of each unit: plates across the track that stand on the outside of the tops.
-void add_lugs(const Shell& shell);
+/// @param stiffeners  that they keep off
+void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners);
 
 /// Trestles from the ground.
 /// @throws InputError where the ground leaves them no room, or the track is too steep for any

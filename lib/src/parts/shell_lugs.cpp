@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -120,7 +119,8 @@ bool clear_of_frames(const Shell& shell, const Span& unit, const TrackFrame& fra
     const TrackFrame joint = frame_at(shell.track, sense > 0.0 ? unit.from : unit.to);
     const Vec2 away = frame.at - joint.at;
     const double rise = dot(frame.up, joint.up);
-    const double above = shell.highest + flange.gap - dot(away, joint.up);
+    const double tops = shell.highest + flange.gap + (shell.ring ? flange.width : 0.0);
+    const double above = tops - dot(away, joint.up);
     const double high = rise > 0.0 ? std::min(top, above / rise) : top;
     if (high > 0.0 && sense * dot(away + high * frame.up, joint.along) < taken) return false;
   }
@@ -129,7 +129,7 @@ bool clear_of_frames(const Shell& shell, const Span& unit, const TrackFrame& fra
 
 }  // namespace
 
-void add_lugs(const Shell& shell) {
+void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners) {
   if (!shell.options.lifting) return;
   const LiftingOptions& lifting = *shell.options.lifting;
   const double half = 0.5 * lifting.thickness;
@@ -148,8 +148,10 @@ void add_lugs(const Shell& shell) {
     };
     const auto cost = [&](double s) {
       const TrackFrame frame = frame_of(shell, s);
-      const bool clear = clear_of_frames(shell, shell.units[i], frame, eye_at(frame) + kOverEye);
-      return clear ? off_plumb(s) : std::numeric_limits<double>::infinity();
+      const double top = eye_at(frame) + kOverEye;
+      const bool clear = clear_of_frames(shell, shell.units[i], frame, top) &&
+                         all_apart({frame, half, {shell.lowest, top}}, stiffeners);
+      return clear ? off_plumb(s) : kNoPlace;
     };
     const auto at = best_seat(shell, {half + kLugAside, half}, between_frames(shell, shell.units[i]), cost);
     if (!at) {

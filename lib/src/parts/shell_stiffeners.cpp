@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace glissade::parts {
@@ -59,10 +58,14 @@ Frame turned(const Frame& place, double thickness) {
 
 }  // namespace
 
-void add_stiffeners(const Shell& shell) {
-  if (!shell.options.stiffeners) return;
+std::vector<StandingPlate> add_stiffeners(const Shell& shell) {
+  if (!shell.options.stiffeners) return {};
   const StiffenerOptions& stiffener = *shell.options.stiffeners;
   const double half = 0.5 * stiffener.thickness;
+  const double out = shell.options.flanges.gap + stiffener.width;
+  const Span heights{shell.lowest - out, shell.highest + (shell.ring ? out : 0.0)};
+  const std::vector<StandingPlate> frames = standing_frames(shell);
+  std::vector<StandingPlate> standing;
   int wanted = 0;
   int count = 0;
   for (const Span& unit : shell.units) {
@@ -72,8 +75,11 @@ void add_stiffeners(const Shell& shell) {
     for (double k = 1.0; k < gaps; k += 1.0) {
       ++wanted;
       const double about = unit.from + whole * k / gaps;
-      const auto at =
-          best_seat(shell, {half + kAside, half}, room, [&](double s) { return std::fabs(s - about); });
+      const auto cost = [&](double s) {
+        const StandingPlate here{frame_of(shell, s), half, heights};
+        return all_apart(here, frames) && all_apart(here, standing) ? std::fabs(s - about) : kNoPlace;
+      };
+      const auto at = best_seat(shell, {half + kAside, half}, room, cost);
       if (!at || std::fabs(*at - about) > 0.5 * whole / gaps) continue;
       const auto ring = ring_at(shell, *at);
       if (!ring) continue;
@@ -84,6 +90,7 @@ void add_stiffeners(const Shell& shell) {
       }
       add_in_pieces(part, ring->line, false, shell.options, kFittingColour, shell.workshop);
       shell.taken.add(*at - half, *at + half);
+      standing.push_back({frame_of(shell, *at), half, heights});
       ++count;
     }
   }
@@ -92,6 +99,7 @@ void add_stiffeners(const Shell& shell) {
         std::to_string(wanted - count) + " of " + std::to_string(wanted) +
         " stiffeners find no place: the plates bend within their thickness, or something else stands there.");
   }
+  return standing;
 }
 
 }  // namespace glissade::parts

@@ -145,8 +145,7 @@ void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent, c
   workshop.setting_out = setting_out(job.track, joints, job.placement);
   TakenUp taken;
   const Shell shell = strip_shell(job, bent, flats, joints, works, workshop, taken);
-  add_stiffeners(shell);
-  add_lugs(shell);
+  add_lugs(shell, add_stiffeners(shell));
   add_supports(shell, workshop.setting_out);
   in_order(workshop.setting_out);
 }
