@@ -273,4 +273,23 @@ TEST_CASE(
   CHECK(built > (testing::thorough() ? 12 : 6));
 }
 
+TEST_CASE("bolts of tiles keep off the ends of tabs and off those of their slots, whatever the clearance") {
+  PlateOptions options;
+  options.split.longest = 2.9;
+  options.liner.emplace();
+  options.corners.kind = CornerJoint::tab_and_slot;
+  for (const double clearance : {1e-3, 1.5e-3, 2e-3}) {
+    for (const double spacing : {0.104, 0.217, 0.576}) {
+      for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+        INFO("clearance " << clearance << ", spacing " << spacing);
+        options.corners.clearance = clearance;
+        options.corners.spacing = spacing;
+        options.floor = floor;
+        const WorkshopBuild build = plates(chute(), options);
+        for (const ShopPart& part : build.workshop.parts) CHECK(faults_of(part.pattern->region).empty());
+      }
+    }
+  }
+}
+
 }  // namespace bent_works_test

@@ -32,7 +32,7 @@ OnOneArc bolt_arcs(const Job& job, const Unit& unit) {
   std::vector<double> breaks;
   const double slack = 0.5 * job.options.corners.clearance;
   for (const Span& tab : unit.tabs) {
-    for (const double along_face : {tab.from - slack, tab.to + slack})
+    for (const double along_face : OnOneArc::ends_of_tab(tab, slack))
       breaks.push_back(on_track(job, unit, along_face));
   }
   return {job.track,

@@ -231,7 +231,6 @@ std::optional<ArcPath> band(const ArcSpline& track, const Span& span, double low
 
 OnOneArc::OnOneArc(const ArcSpline& track, double radius, const Span& heights,
                    const std::vector<double>& breaks, const std::vector<double>& bends) {
-  constexpr double kAside = 0.5e-3;  // from where arcs meet [m]
   for (std::size_t k = 0; k < track.arcs().size(); ++k) {
     const TrackArc& arc = track.arcs()[k];
     const double shrunk = std::min(1.0 - arc.curvature * heights.from, 1.0 - arc.curvature * heights.to);
@@ -249,6 +248,12 @@ OnOneArc::OnOneArc(const ArcSpline& track, double radius, const Span& heights,
       if (ends[i + 1] - ends[i] >= 2.0 * half) rooms_.push_back({ends[i] + half, ends[i + 1] - half});
     }
   }
+}
+
+std::vector<double> OnOneArc::ends_of_tab(const Span& tab, double slack) {
+  // What keeps off the ends of a slot is off those of its tab, unless the slot is much longer.
+  if (slack <= 0.5 * kAside) return {tab.from - slack, tab.to + slack};
+  return {tab.from - slack, tab.from, tab.to, tab.to + slack};
 }
 
 std::optional<double> OnOneArc::nearest(double about, const Span& within) const {

@@ -45,11 +45,15 @@ class OnOneArc {
   /// @param bends    what bends take of either side of every joint, the track's ends included; none: nothing
   OnOneArc(const ArcSpline& track, double radius, const Span& heights, const std::vector<double>& breaks = {},
            const std::vector<double>& bends = {});
+  /// @param slack  by which slots are longer than tabs at either end [m]
+  /// @return breaks for a tab and its slot: one plate has an edge where the tab ends, the other one where the slot does
+  [[nodiscard]] static std::vector<double> ends_of_tab(const Span& tab, double slack);
   [[nodiscard]] bool has(double place) const { return nearest(place, {place, place}).has_value(); }
   /// @return the nearest such place within a span; none if there is none
   [[nodiscard]] std::optional<double> nearest(double about, const Span& within) const;
 
  private:
+  static constexpr double kAside = 0.5e-3;  // taste: from where arcs meet [m]
   std::vector<Span> rooms_;
 };
 

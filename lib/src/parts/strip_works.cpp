@@ -151,8 +151,10 @@ UnitWork work_of(const StripJob& job, const Span& unit, std::size_t index, int& 
     if (has_tabs(job)) work.tabs = tabs_of(job, work.laps, index + 1);
   }
   std::vector<double> breaks;
-  for (const Span& tab : work.tabs)
-    breaks.insert(breaks.end(), {tab.from - slack_of(job), tab.to + slack_of(job)});
+  for (const Span& tab : work.tabs) {
+    const std::vector<double> ends = OnOneArc::ends_of_tab(tab, slack_of(job));
+    breaks.insert(breaks.end(), ends.begin(), ends.end());
+  }
   // Where laps begin and end, plates that pass others have steps.
   if (job.options.corners.kind != CornerJoint::butt)
     breaks.insert(breaks.end(), {work.laps.from, work.laps.to});
