@@ -77,6 +77,10 @@ FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoint
   length_ = flight_length_ + (pressed_ ? pressed_->length() : 0.0);
 }
 
+double FlyingStartBrachistochrone::beyond_start(double s) const {
+  return std::max(s, kRestShare * kRestShare * length_);
+}
+
 double FlyingStartBrachistochrone::slope_angle(double s) const {
   require_on_track(s);
   if (rest_) return rest_->slope_angle(s);
@@ -90,14 +94,18 @@ double FlyingStartBrachistochrone::curvature(double s, double slope_angle) const
 }
 
 Direction FlyingStartBrachistochrone::direction(double s) const {
-  if (rest_) return rest_->direction(s);
+  if (rest_) return {rest_->slope_angle(s), rest_->direction(beyond_start(s)).curvature};
   const double zeta = slope_angle(s);
   return {zeta, curvature(s, zeta)};
 }
 
 CenterlinePoint FlyingStartBrachistochrone::at(double s) const {
   require_on_track(s);
-  if (rest_) return rest_->at(s);
+  if (rest_) {
+    CenterlinePoint point = rest_->at(s);
+    point.curvature = rest_->direction(beyond_start(s)).curvature;
+    return point;
+  }
   const Endpoints& ends = solution_.endpoints;
   SlopeTable::Point point{straight_slope(ends), s * (std::fabs(ends.run) / length_),
                           s * (ends.drop / length_)};

@@ -330,7 +330,10 @@ void read_drag(MapReader& map, BodyDesign& body, Findings& findings) {
   by_parts.drag_area = area.value_or(0.0);
   by_parts.mass = mass.value_or(0.0);
   body.drag = by_parts;
-  body.drag_per_metre = by_parts.drag_per_metre();
+  // Of air that there is not the check tells.
+  const bool in_reach = by_parts.altitude >= kLowestAltitude && by_parts.altitude <= kHighestAltitude &&
+                        by_parts.temperature.value_or(1.0) > 0.0;
+  if (by_parts.density || in_reach) body.drag_per_metre = by_parts.drag_per_metre();
 }
 
 }  // namespace

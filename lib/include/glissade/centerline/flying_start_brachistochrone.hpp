@@ -106,7 +106,8 @@ class SlopeTable;
 /// Curve: curvature -g cos^3(zeta)/(v0 cos(zeta_0))^2 on the flight, where the normal load is 0; it jumps at
 ///   flight_length(), a break, to a positive one. Without friction there is no flight, far faster than gravity
 ///   needs there is nothing else. A vertical one (run 0) is a straight line. In the limit of rest it starts
-///   vertically and with unbounded curvature.
+///   vertically, and with the curvature that the track from rest has after kRestShare^2 of its length: a body
+///   that enters with so little speed feels nothing of more.
 /// Source: docs/theory.md, fastest track with an entry speed; slope angle over arc length by Chebyshev pieces.
 /// Accuracy: position to kPositionAccuracy of the length for margins above 1e-3, see flying_start_accuracy; without
 ///   a flight to 1e-16/turn [rad] besides, kStraightTurn at the least; of a steep one to 1e-16 chord/run, 1e-9 at the
@@ -135,6 +136,7 @@ class FlyingStartBrachistochrone final : public Centerline {
 
  private:
   [[nodiscard]] double curvature(double s, double slope_angle) const;
+  [[nodiscard]] double beyond_start(double s) const;
 
   FlyingStartSolution solution_;
   double flight_length_ = 0.0;
