@@ -431,4 +431,8 @@ TEST_CASE("arc spline: a kink, a gap of no length and a wrong start are refused 
         "arc spline: the piece after joint 1 has no length");
   CHECK(message({{{1.0, 0.0}}, {{2.0, 0.0}}}) == "arc spline: does not start at the origin");
   CHECK(message({{{0.0, 0.0}}}) == "arc spline: fewer than two vertices");
+  for (const double bulge : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+    CHECK(message({{{0.0, 0.0}}, {{1.0, 0.0}, bulge}, {{2.0, 0.0}}})
+              .find("joint 1 is 1 m long across, of bulge") != std::string::npos);
+  CHECK(message({{{0.0, 0.0}}, {{HUGE_VAL, 0.0}}}).find("joint 0 is inf m long across") != std::string::npos);
 }

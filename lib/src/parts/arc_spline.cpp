@@ -43,6 +43,13 @@ ArcSpline::ArcSpline(ArcPath path, double largest_kink) : path_(std::move(path))
     if (!(distance > 0.0)) {
       throw InputError({"", "arc spline: the piece after " + joint_text(i) + " has no length", "", ""});
     }
+    if (!std::isfinite(distance) || !std::isfinite(vertices[i].bulge)) {
+      throw InputError(
+          {"",
+           "arc spline: the piece after " + joint_text(i) + " is " + exact_text(distance) +
+               " m long across, of bulge " + exact_text(vertices[i].bulge),
+           "Both are finite; a bulge is the tangent of a quarter of the angle that its arc turns by.", ""});
+    }
     const double half = 2.0 * math::atan(vertices[i].bulge);
     const double own = math::atan2(chord.y, chord.x) - half;
     const double kink = wrapped(own - heading);

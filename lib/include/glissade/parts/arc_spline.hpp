@@ -28,8 +28,8 @@ class ArcSpline final : public Centerline {
  public:
   /// @param path  open, in the frame (x, height): x as a centerline has it, height = -drop; starts at the origin
   /// @param largest_kink  more of a line that nothing runs on: the flats that bent plates are [rad]
-  /// @throws InputError if there are fewer than two vertices, the first is not the origin, a piece has no length, or
-  ///   two pieces meet at more than `largest_kink`; names the joint
+  /// @throws InputError if there are fewer than two vertices, the first is not the origin, a piece has no length, a
+  ///   place or bulge is not finite, or two pieces meet at more than `largest_kink`; names the joint
   explicit ArcSpline(ArcPath path, double largest_kink = kArcSplineKink);
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "arc-spline"; }
