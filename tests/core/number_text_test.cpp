@@ -31,6 +31,12 @@ TEST_CASE("lengths are shown in the unit that suits their size") {
   CHECK(length_text(0.4) == "400 mm");
   CHECK(length_text(5.4) == "5.4 m");
   CHECK(length_text(12000) == "12 km");
+  CHECK(length_text(0.99996) == "1 m");
+  CHECK(length_text(-0.99996) == "-1 m");
+  CHECK(length_text(0.99994) == "999.9 mm");
+  CHECK(length_text(0.99996, 6) == "999.96 mm");
+  CHECK(length_text(9999.6) == "10 km");
+  CHECK(length_text(9999.4) == "9999 m");
   CHECK(angle_text(Angle::from_radians(0.29670597283903605)) == "17 deg");
   CHECK(angle_text(Angle::from_radians(-8.7e-16)) == "0 deg");
   CHECK(angle_text(Angle::from_radians(1e-9)) == "5.73e-08 deg");
@@ -50,4 +56,5 @@ TEST_CASE("two values that a message holds against each other are written with d
   CHECK(texts_apart(33.6901, 33.6899, [](double value, int digits) { return rounded_text(value, digits); }) ==
         Texts{"33.6901", "33.6899"});
   CHECK(texts_apart(2.0, 2.0, &length_text) == Texts{"2 m", "2 m"});
+  CHECK(texts_apart(0.99999, 1.0, &length_text) == Texts{"999.99 mm", "1 m"});
 }

@@ -38,9 +38,12 @@ std::string rounded_text(double value, int digits) {
 }
 
 std::string length_text(double metres, int digits) {
+  // What rounds to a metre is told as one, as what has just reached it is.
   const double size = std::fabs(metres);
-  if (size < 1.0) return rounded_text(metres * 1e3, digits) + " mm";
-  if (size >= 1e4) return rounded_text(metres * 1e-3, digits) + " km";
+  const bool below_metre = size < 1.0 && rounded_text(size, digits) != "1";
+  if (below_metre) return rounded_text(metres * 1e3, digits) + " mm";
+  if (size >= 1e4 || rounded_text(size, digits) == "10000")
+    return rounded_text(metres * 1e-3, digits) + " km";
   return rounded_text(metres, digits) + " m";
 }
 
