@@ -60,7 +60,9 @@ inline RandomCase random_case(testing::Random& random) {
     const double high = random.between(0.05, 0.5);
     const Passage passes[] = {Passage::either, Passage::either, Passage::above, Passage::below};
     limits.keep_outs.push_back(
-        {{at, at + Vec2{wide, random.between(-0.1, 0.1)}, at + Vec2{wide, high}, at + Vec2{0.0, high}},
+        // Its sides do not cross.
+        {{at, at + Vec2{wide, std::min(random.between(-0.1, 0.1), 0.9 * high)}, at + Vec2{wide, high},
+          at + Vec2{0.0, high}},
          random.between(0.0, 0.15),
          passes[random.integer(0, 3)]});
     words << " keep-out " << at.x << " " << at.y << " " << wide << " x " << high << ";";

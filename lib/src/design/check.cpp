@@ -95,7 +95,8 @@ std::optional<Finding> find_unreachable(const Design& design) {
   const BodyDesign& body = design.body;
   const double run = run_of(track);
   const double drop = drop_of(track);
-  if (design.feed || !(design.gravity > 0.0)) return {};
+  // What is out of range is told by other checks.
+  if (design.feed || !(design.gravity > 0.0) || !(body.entry_speed >= 0.0)) return {};
   const Friction friction = least_friction(body);
   const double mu = friction.coefficient();
   if (finish_is_unbounded(track) || is_drawn(design.centerline.kind)) return {};

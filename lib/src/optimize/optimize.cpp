@@ -376,8 +376,8 @@ std::optional<double> left_to_win(const Candidate& best, const PricedLimits& pri
 
 /// Limits that the track keeps well clear of cost nothing: what a finer mesh would have at them is no part of it.
 void leave_out_untouched(const std::vector<LimitCheck>& checks, std::vector<ActiveLimit>& active) {
-  constexpr double kClear =
-      1e-3;  // taste: in scales; loads that are held tighter than asked for stay a hundredth of it off
+  // In scales: loads that are held tighter than asked for stay a hundredth of it off.
+  constexpr double kClear = 1e-3;  // taste
   std::erase_if(active, [&](const ActiveLimit& limit) {
     const auto check = std::find_if(checks.begin(), checks.end(),
                                     [&](const LimitCheck& known) { return known.limit == limit.limit; });
