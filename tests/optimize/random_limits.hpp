@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <numbers>
 
@@ -119,11 +120,13 @@ inline int problem_count() {
 #endif
 }
 
+/// What a short run draws them with.
+inline constexpr std::uint64_t kShortSeed = 3;
+
 /// What random limited problems are drawn with. The first one of those that continuous integration draws winds at a cap on
 /// the speed, which takes half a minute; of the others none takes long, and some contradict themselves.
 inline testing::Random seeded_for_limited() {
-  constexpr std::uint64_t kShort = 3;
-  return testing::thorough() ? testing::seeded_random() : testing::seeded_random(kShort);
+  return testing::thorough() ? testing::seeded_random() : testing::seeded_random(kShortSeed);
 }
 
 }  // namespace glissade::testing_problems

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 namespace random_limits_test {
@@ -196,18 +197,15 @@ OptimizeReport hold(const Problem& problem, int neighbours, testing::Random& ran
 
 }  // namespace
 
-TEST_CASE(
-    "random limited problems: every limit is kept, no admissible neighbour is faster, and an independent "
-    "search finds no "
-    "track where limits are said to contradict each other, and what they would take does") {
-  testing::Random random = testing_problems::seeded_for_limited();
+namespace {
+
+/// @param searched  of so many the independent search looks for a track where none is told
+void hold_random_limited(testing::Random random, int problems, int searched) {
   INFO("GLISSADE_SEED=" << random.seed());
   // Its own numbers: the problems are the same without that search.
   testing::Random steps(random.seed());
   constexpr int kNeighbours = 16;
   Tally tally;
-  const int problems = testing_problems::problem_count();
-  const int searched = testing_problems::problems_of(20);
   for (int i = 0; i < problems; ++i) {
     const Problem problem = random_limited(random);
     CAPTURE(i);
@@ -224,6 +222,21 @@ TEST_CASE(
   CHECK(tally.converged >= problems * 7 / 10);
   CHECK(tally.converged >= tally.solved - tally.solved / 100);
   CHECK(tally.admissible > problems / 2);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "random limited problems: every limit is kept, no admissible neighbour is faster, and an independent "
+    "search finds no "
+    "track where limits are said to contradict each other, and what they would take does") {
+  hold_random_limited(testing_problems::seeded_for_limited(), testing_problems::problem_count(),
+                      testing_problems::problems_of(20));
+  // Continuous integration draws others: those that a short run has it holds, too.
+  constexpr int kShort = 40;
+  constexpr int kShortSearched = 20;
+  if (testing::thorough() && std::getenv("GLISSADE_SEED") == nullptr)
+    hold_random_limited(testing::Random(testing_problems::kShortSeed), kShort, kShortSearched);
 }
 
 /// The same problem on ground that changes up to three times, some of them beyond the finish.
