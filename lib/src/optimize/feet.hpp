@@ -34,7 +34,6 @@ class ConcernedPoints {
  public:
   explicit ConcernedPoints(std::vector<Vec2> points);
 
-  [[nodiscard]] Vec2 operator[](std::size_t index) const { return points_[index]; }
   /// Every one that concerns() has for an edge, in their order.
   /// @param found  emptied first
   void of_edge(Vec2 from, Vec2 to, double side, std::vector<std::size_t>& found) const;

@@ -19,6 +19,10 @@ struct LeadPrice {
 ///
 /// Source: A. V. Fiacco, "Introduction to Sensitivity and Stability Analysis in Nonlinear Programming" (1983), 3.4: the
 /// derivative of the optimal value by a parameter is that of the Lagrangian.
+/// Where friction changes along the track the optimum on a mesh is none of the core's length, which the mesh holds; what the
+/// Lagrangian changes by with that is taken off, the core taken to be shorter by what the straight end is longer.
+/// Accuracy: that is right to some 2 % of differences of re-solves; where these are not smooth themselves up to 8 % were seen
+/// (test_optimize_prices "straight ends cost*" holds eight to 5 %).
 /// @param objective  multiplier of the objective: 1; 0 where a row alone is made least
 /// @return those that cost something
 [[nodiscard]] std::vector<LeadPrice> lead_prices(const ScaledProblem& problem, const Found& found,

@@ -11,7 +11,8 @@ namespace glissade::optimizer {
 ///
 /// A corner between two others is left out where it lies behind the arc of the radius through both: a track that clears
 /// these two, its bends towards the line no sharper than the arc, clears that corner (a first place where it did not would have
-/// a bend as sharp as the arc's; docs/optimization.md, "Measured ground"). In place of those left out stands one corner behind all of them.
+/// a bend as sharp as the arc's; docs/optimization.md, "Measured ground"). In place of those left out between two that stay
+/// stands one corner behind all of them.
 struct Touching {
   double side = 1.0;    ///< +1: tracks stay above the line (at less drop), -1: below
   double radius = 0.0;  ///< no track bends more sharply towards the line; > 0

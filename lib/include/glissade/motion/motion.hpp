@@ -191,8 +191,9 @@ class Motion {
 
   /// A value of the body at a place: of a law_state() within the ride.
   using Quantity = std::function<double(const LawState&)>;
-  /// The one way to the greatest value of anything along a ride; of the least one the quantity's negative. It is looked
-  /// for between all samples, and on both sides of each place where curvature, friction or the law changes.
+  /// The greatest value of anything along a ride; of the least one the quantity's negative. What is told of a ride comes from
+  /// here (the referee of limits looks for itself). It is looked for between all samples, and on both sides of each place
+  /// where curvature, friction or the law changes.
   /// @param quantity  smooth in between
   /// @return its highest value, to 1e-9 relative, and its place; of two alike the first
   [[nodiscard]] QuantityPeak highest(const Quantity& quantity) const;
