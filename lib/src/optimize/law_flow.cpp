@@ -222,6 +222,16 @@ LocalRow Transcription::dcurvature(const Vector& z, std::size_t index, double cu
   return {0.0, 0.0, (1.0 - station.share) / stretch, station.share / stretch, by_length};
 }
 
+std::optional<double> Transcription::steady_curvature(const Vector& z, const Shape& shape, const Ride& ride,
+                                                      std::size_t station, double v) const {
+  // dv/ds is linear in the curvature.
+  const Place straight{ride.friction_in(stations_[station].zone), shape.sin[station], shape.cos[station], 0.0,
+                       arc_length(z, stations_[station])};
+  const Slope slope = slope_at(ride, straight, v);
+  if (!(slope.curvature < 0.0)) return std::nullopt;
+  return -slope.value / slope.curvature;
+}
+
 void Transcription::enter(const Shape& shape, const Ride& ride, Flow& out) const {
   const Term entry = entry_v(ride, shape.zeta[0]);
   out.v[0] = entry.value;

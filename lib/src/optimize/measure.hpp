@@ -60,7 +60,7 @@ class Measure {
   [[nodiscard]] virtual bool is_met_at_each_end_of_range() const { return false; }
   /// Whether it can bind along a stretch, whose ends are then looked for (switches.cpp).
   [[nodiscard]] virtual bool holds_along() const { return false; }
-  /// Whether it is a load, whose curvature where it binds is not linear in arc length (load_arcs.cpp).
+  /// Whether it is a load, whose curvature where it binds is not linear in arc length (held_arcs.cpp).
   [[nodiscard]] virtual bool is_load() const { return false; }
 
   static const Measure* const entry_slope_angle;

@@ -199,18 +199,22 @@ class Course {
   void look_again(bool by_footholds) {
     const auto is_optimum = [&] { return best_->found->residual <= options_.tolerance; };
     look_at_promising();
+    bool is_hooked = false;
     if (kept() && !stopped_) {
       const double known = best_->found->objective;
       best_ = searcher_.from_hooks(*std::move(best_));
       stopped_ = best_->stopped;
-      // What else leads to tracks that wind takes long: it is for those that hooks do not help.
-      if (best_->found->objective < known && is_optimum()) return;
+      // Other tracks that wind take long to find: that is for those that hooks do not help.
+      is_hooked = best_->found->objective < known && is_optimum();
     }
-    if (!kept() || stopped_ || (!by_footholds && is_optimum())) return;
-    best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
-                         : searcher_.from_scattered(*std::move(best_));
-    if (!best_->stopped && (by_footholds || !is_optimum()))
-      best_ = searcher_.on_other_meshes(*std::move(best_), by_footholds);
+    if (!kept() || stopped_) return;
+    if (!is_hooked && (by_footholds || !is_optimum())) {
+      best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
+                           : searcher_.from_scattered(*std::move(best_));
+      if (!best_->stopped && (by_footholds || !is_optimum()))
+        best_ = searcher_.on_other_meshes(*std::move(best_), by_footholds);
+    }
+    // Bends that lie well by themselves may still lie in the wrong order.
     if (!best_->stopped) best_ = searcher_.with_shifted_bends(*std::move(best_));
     stopped_ = best_->stopped;
   }
@@ -386,6 +390,14 @@ void leave_out_untouched(const std::vector<LimitCheck>& checks, std::vector<Acti
   });
 }
 
+/// Prices may be those of a track on a finer mesh, which is a little longer: no place lies behind the end of the one told.
+void end_with_track(double length, std::vector<ActiveLimit>& active) {
+  for (ActiveLimit& limit : active) {
+    for (Stretch& stretch : limit.where)
+      stretch = {std::min(stretch.from, length), std::min(stretch.to, length)};
+  }
+}
+
 /// Tells of the best track that keeps every limit.
 void tell_track(Course& course, const OptimizeOptions& options, SearchControl& control,
                 OptimizeReport& report) {
@@ -405,6 +417,7 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   report.exit_speed = best.judgement.exit_speed;
   report.checks = best.judgement.checks;
   leave_out_untouched(report.checks, report.active);
+  end_with_track(best.track->length(), report.active);
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = left_to_win(best, priced, onto_finest);
 }

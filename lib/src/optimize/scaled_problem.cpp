@@ -648,6 +648,10 @@ bool is_smooth(const ScaledProblem& problem) {
                      [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
 }
 
+bool is_cap_along(const LimitSpec& limit) {
+  return limit.measure == Measure::speed && limit.side > 0;
+}
+
 bool holds_from_a_place(const LimitSpec& limit) {
   return limit.side < 0 && limit.name.id == LimitId::speed;
 }

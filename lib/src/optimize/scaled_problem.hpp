@@ -108,6 +108,9 @@ using Passages = std::vector<Passage>;
 /// @param core_length  about the length of the core [chords]
 [[nodiscard]] Mesh mesh_of(const ScaledProblem& problem, Vector knots, double core_length);
 
+/// Whether a limit is one on the speed along the track, from above.
+[[nodiscard]] bool is_cap_along(const LimitSpec& limit);
+
 /// Whether a limit holds from ScaledProblem::lowest_speed_from on.
 [[nodiscard]] bool holds_from_a_place(const LimitSpec& limit);
 

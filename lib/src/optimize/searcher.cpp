@@ -660,7 +660,7 @@ Found Searcher::followed(const ScaledProblem& problem, Found found) {
   constexpr int kMostRounds = 3;  // budget
   constexpr double kPays = 1e-7;  // accuracy: below that of a time
   for (int round = 0; round < kMostRounds; ++round) {
-    const std::optional<Mesh> mesh = following_loads(problem, found);
+    const std::optional<Mesh> mesh = following_limits(problem, found);
     if (!mesh) break;
     aim_at(kAimed * options_.tolerance, 0);
     Found next = minimise(problem, *mesh, found.z, margins_, control_, &found);
@@ -940,7 +940,7 @@ std::optional<Found> Searcher::following_closely(const ScaledProblem& problem, c
                                                  const std::vector<LiftOff>& lifts) {
   Vector lifting;
   for (const LiftOff& lift : lifts) lifting.push_back(lift.sigma);
-  const std::optional<Mesh> closer = following_loads(problem, found, lifting);
+  const std::optional<Mesh> closer = following_limits(problem, found, lifting);
   if (!closer || closer->fine.size() <= found.track->mesh().fine.size()) return std::nullopt;
   // Steps of our own stay in the valley mostly. Another one may be dearer, for which the load is no reason.
   aim_at(kAimed * options_.tolerance, 0);

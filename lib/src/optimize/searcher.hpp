@@ -2,7 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
-#include "optimize/load_arcs.hpp"
+#include "optimize/held_arcs.hpp"
 #include "optimize/refinement.hpp"
 #include "optimize/scaled_problem.hpp"
 #include "optimize/search.hpp"

@@ -80,10 +80,6 @@ class Assembly {
   double at_ = 0.0;
 };
 
-bool is_cap_along(const LimitSpec& limit) {
-  return limit.measure == Measure::speed && limit.side > 0;
-}
-
 }  // namespace
 
 std::vector<Span> stretches_at_cap(const ScaledProblem& problem, const Found& found) {

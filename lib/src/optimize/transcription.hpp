@@ -209,6 +209,10 @@ class Transcription {
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<Station>& stations() const { return stations_; }
+  /// The curvature with which a ride keeps a squared speed at a station, whose slope angle stays.
+  /// @return none where curvature does not slow it
+  [[nodiscard]] std::optional<double> steady_curvature(const Vector& z, const Shape& shape, const Ride& ride,
+                                                       std::size_t station, double v) const;
   /// Those at which limits are held, in order.
   [[nodiscard]] const std::vector<std::size_t>& watched() const { return watched_; }
   /// Station at Mesh::held_from, on a track as long as the mesh was laid for; none where that is the start, or behind the

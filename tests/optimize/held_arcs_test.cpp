@@ -19,7 +19,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace load_arcs_test {
+namespace held_arcs_test {
 
 using namespace glissade;
 
@@ -380,4 +380,4 @@ TEST_CASE(
   }
 }
 
-}  // namespace load_arcs_test
+}  // namespace held_arcs_test

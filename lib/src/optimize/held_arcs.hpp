@@ -13,17 +13,18 @@ struct LiftOff {
 };
 [[nodiscard]] std::vector<LiftOff> lift_offs_of(const ScaledProblem& problem, const Found& found);
 
-/// A mesh whose curvature follows a load limit wherever the track found lies at it for a stretch.
+/// A mesh whose curvature follows a limit on the load, or a cap on the speed, wherever the track found lies at it for a
+/// stretch.
 ///
-/// There the curvature is that of constant load, kappa = (N - g cos(zeta))/v (a parabola in flight for N = 0),
-/// which is not linear in arc length: between two knots a clothoid keeps the limit at the cost of second order in
+/// There the curvature is that of constant load, kappa = (N - g cos(zeta))/v (a parabola in flight for N = 0), or of constant
+/// speed, which are not linear in arc length: between two knots a clothoid keeps the limit at the cost of second order in
 /// their distance. The mesh returned has fine knots along these stretches, as many as their price asks for; the
 /// turning rates that they add are what the track found lacks between its knots. They are as good as that track,
 /// so that a search on the mesh, and this once more, come closer by another order each time.
 /// @param lifts  places of the core, by its length, at which a body left the track between two stations: the
 ///               pieces there get twice as many fine knots as they have
-/// @return none where no load is held over whole pieces, or where fine knots would win nothing
-[[nodiscard]] std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found,
-                                                  const Vector& lifts = {});
+/// @return none where no such limit is held over whole pieces, or where fine knots would win nothing
+[[nodiscard]] std::optional<Mesh> following_limits(const ScaledProblem& problem, const Found& found,
+                                                   const Vector& lifts = {});
 
 }  // namespace glissade::optimizer

@@ -1,4 +1,4 @@
-#include "optimize/load_arcs.hpp"
+#include "optimize/held_arcs.hpp"
 
 #include "optimize/switches.hpp"
 
@@ -12,6 +12,8 @@ namespace {
 // curvature leaves too early, is held only in part. So does one that stays this close to the bound, in scales.
 constexpr double kHeld = 0.05;       // taste
 constexpr double kNearBound = 0.02;  // taste
+// Of a cap on the speed, which is flat near where a track reaches it.
+constexpr double kNearCap = 1e-4;  // taste
 // What is flown over next to the start has all that its limit costs, and counts there if it is shorter than one over this of
 // the core. Measured of 300 random problems: elsewhere, and of longer ones, it wins nothing but another valley where tracks
 // wind, and those take up to 2.6 times as long.
@@ -37,11 +39,35 @@ struct HeldPiece {
   double share = 0.0;  ///< of the piece that the limit binds at a stretch
 };
 
-/// The curvature at which a load is at its bound, on the ride that is closest to it.
-double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const State& state,
-                          std::size_t limit, std::size_t station) {
+/// A mesh, its rows, and the state of a track found for it or for one of the same knots.
+struct OnMesh {
+  const ScaledProblem& problem;
+  const Transcription& track;
+  const Rows& rows;
+  const State& state;
+
+  [[nodiscard]] double bound(std::size_t limit) const {
+    const LimitSpec& spec = problem.limits[limit];
+    return spec.bound - spec.side * rows.margins()[limit] * spec.scale;
+  }
+  /// Of the ride that a cap is held on.
+  [[nodiscard]] double speed(std::size_t limit, std::size_t station) const {
+    const std::size_t ride = problem.limits[limit].ride.value_or(0);
+    return std::sqrt(std::max(state.flows[ride].v[station], 0.0));
+  }
+};
+
+/// The curvature at which a load is at its bound, on the ride that is closest to it, or a speed stays at its cap.
+double curvature_at_bound(const OnMesh& on, std::size_t limit, std::size_t station) {
+  const ScaledProblem& problem = on.problem;
+  const State& state = on.state;
   const LimitSpec& spec = problem.limits[limit];
-  const double bound = spec.bound - spec.side * rows.margins()[limit] * spec.scale;
+  const double bound = on.bound(limit);
+  if (is_cap_along(spec)) {
+    const Ride& ride = problem.rides[spec.ride.value_or(0)];
+    return on.track.steady_curvature(state.z, state.shape, ride, station, bound * bound)
+        .value_or(state.shape.curvature[station]);
+  }
   const double weight = spec.measure == Measure::normal_load ? state.shape.cos[station] : 0.0;
   const auto at_ride = [&](std::size_t ride) {
     const double of_centre = (bound - weight) / state.flows[ride].v[station];
@@ -53,34 +79,86 @@ double curvature_at_bound(const ScaledProblem& problem, const Rows& rows, const 
   return std::max(first, at_ride(problem.rides.size() - 1));
 }
 
-/// How far a load stays from its bound, at most, at the stations of each piece, on the closest ride.
-Vector slack_by_piece(const ScaledProblem& problem, const Found& found, const State& state,
-                      std::size_t limit) {
-  const LimitSpec& spec = problem.limits[limit];
-  const Transcription& track = *found.track;
-  Vector slack(track.mesh().knots.size() - 1, 0.0);
-  for (std::size_t i = 0; i < track.stations().size(); ++i) {
-    const Station& station = track.stations()[i];
+/// How far a load or a speed stays from its bound, at most, at the stations of each piece, on the closest ride.
+Vector slack_by_piece(const OnMesh& on, std::size_t limit) {
+  const LimitSpec& spec = on.problem.limits[limit];
+  Vector slack(on.track.mesh().knots.size() - 1, 0.0);
+  for (std::size_t i = 0; i < on.track.stations().size(); ++i) {
+    const Station& station = on.track.stations()[i];
     if (station.part != Part::core) continue;
-    const double v = state.flows[0].v[i];
-    const double off = curvature_at_bound(problem, *found.rows, state, limit, i) - state.shape.curvature[i];
-    slack[station.piece] = std::max(slack[station.piece], std::fabs(off) * v / spec.scale);
+    const double off = is_cap_along(spec) ? on.bound(limit) - on.speed(limit, i)
+                                          : (curvature_at_bound(on, limit, i) - on.state.shape.curvature[i]) *
+                                                on.state.flows[0].v[i];
+    slack[station.piece] = std::max(slack[station.piece], std::fabs(off) / spec.scale);
   }
   return slack;
 }
 
-/// Pieces that lie where a load binds, in order, with what its rows cost there: no less than their share of what
-/// the whole stretch costs, since of rows side by side a few carry all.
+/// Stations at given places of the core, which are ends of panels, both in order.
+std::vector<std::size_t> stations_at(const Transcription& track, const Vector& places) {
+  std::vector<std::size_t> result;
+  const std::vector<Station>& stations = track.stations();
+  std::size_t at = 0;
+  for (const double place : places) {
+    while (stations[at].part == Part::lead_in && at + 1 < stations.size()) ++at;
+    while (at + 1 < stations.size() && stations[at].sigma < place) ++at;
+    result.push_back(at);
+  }
+  return result;
+}
+
+/// Pieces at whose ends a speed lies at its cap: a linear curvature cannot keep it there in between.
+std::vector<bool> between_caps(const OnMesh& on, std::size_t limit) {
+  constexpr double kAtCap = 1e-6;  // accuracy: ten times that of a limit
+  const Vector& knots = on.track.mesh().knots;
+  std::vector<bool> between(knots.size() - 1, false);
+  if (!is_cap_along(on.problem.limits[limit])) return between;
+  const std::vector<std::size_t> ends = stations_at(on.track, knots);
+  const auto is_at_cap = [&](std::size_t station) {
+    return std::fabs(on.bound(limit) - on.speed(limit, station)) < kAtCap * on.problem.limits[limit].scale;
+  };
+  for (std::size_t piece = 0; piece < between.size(); ++piece)
+    between[piece] = is_at_cap(ends[piece]) && is_at_cap(ends[piece + 1]);
+  return between;
+}
+
+/// Which pieces lie at a limit, by which share of them it binds; below 0: not at all.
+Vector held_shares(const ScaledProblem& problem, const Found& found, const State& state, std::size_t limit,
+                   const std::vector<Span>& bindings) {
+  const Transcription& track = *found.track;
+  const Vector& knots = track.mesh().knots;
+  const OnMesh on{problem, track, *found.rows, state};
+  const bool cap = is_cap_along(problem.limits[limit]);
+  const Vector slack = slack_by_piece(on, limit);
+  const std::vector<bool> between = between_caps(on, limit);
+  std::vector<bool> has_fine(knots.size() - 1, false);
+  for (const FineKnot& fine : track.fine_knots()) has_fine[fine.piece] = true;
+  Vector shares(knots.size() - 1, -1.0);
+  for (std::size_t piece = 0; piece + 1 < knots.size(); ++piece) {
+    double share = 0.0;
+    for (const Span& span : bindings) {
+      const double from = std::max(knots[piece], track.sigma_at(found.z, span.from));
+      const double to = std::min(knots[piece + 1], track.sigma_at(found.z, span.to));
+      share = std::max(share, (to - from) / (knots[piece + 1] - knots[piece]));
+    }
+    // Speeds stay near a cap far beyond where it binds.
+    const bool is_near =
+        cap ? between[piece] || slack[piece] <= kNearCap : has_fine[piece] || slack[piece] <= kNearBound;
+    if (share >= kHeld || is_near) shares[piece] = share;
+  }
+  return shares;
+}
+
+/// Pieces that lie where a load or a cap on the speed binds, in order, with what its rows cost there: no less than their
+/// share of what the whole stretch costs, since of rows side by side a few carry all.
 std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& found, const State& state) {
   const Transcription& track = *found.track;
   const Vector& knots = track.mesh().knots;
   const std::size_t pieces = knots.size() - 1;
   std::vector<std::optional<HeldPiece>> best(pieces);
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
-  std::vector<bool> has_fine(pieces, false);
-  for (const FineKnot& fine : track.fine_knots()) has_fine[fine.piece] = true;
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
-    if (!problem.limits[i].measure->is_load()) continue;
+    if (!problem.limits[i].measure->is_load() && !is_cap_along(problem.limits[i])) continue;
     Vector price(pieces, 0.0);
     double whole = 0.0;
     for (std::size_t k = 0; k < found.active.size(); ++k) {
@@ -91,24 +169,10 @@ std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& fo
       whole += found.inequality[k];
     }
     if (whole <= 0.0) continue;
-    const Vector slack = slack_by_piece(problem, found, state, i);
-    // Up to which share of a piece the limit binds.
-    const auto bound = [&](std::size_t piece) {
-      double most = 0.0;
-      for (const Span& span : bindings[i]) {
-        const double from = std::max(knots[piece], track.sigma_at(found.z, span.from));
-        const double to = std::min(knots[piece + 1], track.sigma_at(found.z, span.to));
-        most = std::max(most, (to - from) / (knots[piece + 1] - knots[piece]));
-      }
-      return most;
-    };
-    Vector shares(pieces, -1.0);
+    const Vector shares = held_shares(problem, found, state, i, bindings[i]);
     double stretch = 0.0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
-      const double share = bound(piece);
-      if (share < kHeld && !has_fine[piece] && slack[piece] > kNearBound) continue;
-      shares[piece] = share;
-      stretch += knots[piece + 1] - knots[piece];
+      if (shares[piece] >= 0.0) stretch += knots[piece + 1] - knots[piece];
     }
     const double part_of_core = problem.entry_speed2 > 0.0 ? std::min(1.0, kShort * stretch) : 1.0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
@@ -128,27 +192,13 @@ std::vector<HeldPiece> held_pieces(const ScaledProblem& problem, const Found& fo
   return held;
 }
 
-/// Stations at given places of the core, which are ends of panels, both in order.
-std::vector<std::size_t> stations_at(const Transcription& track, const Vector& places) {
-  std::vector<std::size_t> result;
-  const std::vector<Station>& stations = track.stations();
-  std::size_t at = 0;
-  for (const double place : places) {
-    while (stations[at].part == Part::lead_in && at + 1 < stations.size()) ++at;
-    while (at + 1 < stations.size() && stations[at].sigma < place) ++at;
-    result.push_back(at);
-  }
-  return result;
-}
-
-/// How far the load strays from its bound within a piece whose curvature is linear, in scales of the limit.
-double load_missed(const ScaledProblem& problem, const Found& found, const State& state,
-                   const HeldPiece& held) {
+/// How far the load or the speed strays from its bound within a piece whose curvature is linear, in scales of the limit.
+double missed_between(const ScaledProblem& problem, const Found& found, const State& state,
+                      const HeldPiece& held) {
   const Vector& knots = found.track->mesh().knots;
   const std::vector<std::size_t> ends = stations_at(*found.track, {knots[held.piece], knots[held.piece + 1]});
-  const auto wanted = [&](std::size_t station) {
-    return curvature_at_bound(problem, *found.rows, state, held.limit, station);
-  };
+  const OnMesh on{problem, *found.track, *found.rows, state};
+  const auto wanted = [&](std::size_t station) { return curvature_at_bound(on, held.limit, station); };
   const double first = wanted(ends[0]);
   const double last = wanted(ends[1]);
   double missed = 0.0;
@@ -158,7 +208,16 @@ double load_missed(const ScaledProblem& problem, const Found& found, const State
     const double off = wanted(station) - (first + share * (last - first));
     missed = std::max(missed, std::fabs(off) * state.flows[0].v[station]);
   }
-  return missed / problem.limits[held.limit].scale;
+  const LimitSpec& spec = problem.limits[held.limit];
+  if (is_cap_along(spec)) {
+    // Friction makes a change of speed of the load that is missed, over a third of the piece.
+    constexpr double kShare =
+        1.0 / 3.0;  // theory: the mean distance of a parabola's integral from its chord's, about
+    const double width = (knots[held.piece + 1] - knots[held.piece]) * found.track->core_length(found.z);
+    const Ride& ride = problem.rides[spec.ride.value_or(0)];
+    missed *= kShare * width * ride.friction_in(found.track->stations()[ends[0]].zone) / spec.bound;
+  }
+  return missed / spec.scale;
 }
 
 /// Into how many parts the fine knots cut a piece.
@@ -222,7 +281,7 @@ std::vector<LiftOff> lift_offs_of(const ScaledProblem& problem, const Found& fou
   return lifts;
 }
 
-std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& found, const Vector& lifts) {
+std::optional<Mesh> following_limits(const ScaledProblem& problem, const Found& found, const Vector& lifts) {
   const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
     return limit.measure == Measure::curvature_rate;
   });
@@ -238,7 +297,7 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
   for (const HeldPiece& piece : held) {
     if (!moves(before, *found.track, piece.piece)) continue;
     // The mean of a parabola's distance from its chord is two thirds of the greatest.
-    const double loss = 2.0 / 3.0 * piece.price * load_missed(problem, found, before, piece);
+    const double loss = 2.0 / 3.0 * piece.price * missed_between(problem, found, before, piece);
     const double left = problem.limits[piece.limit].side > 0 ? kLeftAbove : kLeft;
     const double parts = std::sqrt(loss / (left * std::fabs(found.objective)));
     const std::size_t known = fine_count(*found.track, piece.piece);
@@ -263,6 +322,7 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
   Rows rows(problem, track);
   rows.set_margins(found.rows->margins());
   const State state = rows.state(found.z, false);
+  const OnMesh on{problem, track, rows, state};
   std::size_t next = 0;
   for (const HeldPiece& piece : fine_pieces) {
     const double from = knots[piece.piece];
@@ -273,8 +333,7 @@ std::optional<Mesh> following_loads(const ScaledProblem& problem, const Found& f
     places.push_back(to);
     const std::vector<std::size_t> stations = stations_at(track, places);
     const auto wanted = [&](std::size_t i) {
-      return track.stretch(found.z, piece.piece) *
-             curvature_at_bound(problem, rows, state, piece.limit, stations[i]);
+      return track.stretch(found.z, piece.piece) * curvature_at_bound(on, piece.limit, stations[i]);
     };
     const double at_first = wanted(0);
     const double at_last = wanted(places.size() - 1);
