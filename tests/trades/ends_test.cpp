@@ -100,12 +100,31 @@ TEST_CASE("a stream that lands on its track rides on with what the impact leaves
     CHECK(left < before);
     before = left;
   }
-  // theta + phi beyond 90 deg: it stalls where it lands.
+  CHECK(enters(Motion(track, body, kGravity)));
+  // What leaves a share of the speed, by the angle and by the friction that do.
+  for (const double share : {0.3, 0.8}) {
+    const Angle theta = steepest_impact(share, body.friction);
+    CHECK(impact_on({4.0, theta}, Angle{}, body.friction, 1600.0).speed_ratio ==
+          Approx(share).epsilon(1e-12));
+    const Friction most = most_friction_of_impact(share, theta).value();
+    CHECK(most.angle().radians() == Approx(body.friction.angle().radians()).epsilon(1e-9));
+  }
+  CHECK_FALSE(most_friction_of_impact(0.3, Angle::from_degrees(80.0)));
+  // theta + phi beyond 90 deg: it stands where it lands.
   body.landing = Landing{4.0, Angle::from_degrees(120.0)};
   body.friction = friction_of(30.0);
   const Motion stuck(track, body, kGravity);
   CHECK_FALSE(stuck.arrived());
   CHECK(stuck.distance() == 0.0);
+  CHECK(lands(stuck));
+  CHECK(stands_where_it_lands(stuck));
+  CHECK_FALSE(enters(stuck));
+  CHECK(to_text(ride_end(stuck)) == "stands where it lands");
+  body.landing = Landing{4.0, Angle::from_degrees(40.0)};
+  const Motion above(track, body, kGravity);
+  CHECK_FALSE(enters(above));
+  CHECK_FALSE(stands_where_it_lands(above));
+  CHECK(to_text(ride_end(above)) == "flies over the start");
 }
 
 TEST_CASE("landing on a belt: Roberts' components and wear factor on a level belt without a drop") {

@@ -7,6 +7,7 @@
 #include "ride.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -314,6 +315,12 @@ double speed_after(const Landing& landing, Angle slope_angle, Friction friction)
   return landing.speed * (math::cos(theta) - math::sin(theta) * friction.coefficient());
 }
 
+namespace {
+
+constexpr double kStopped = 1e-9;  // rounding: what an impact leaves when it leaves nothing [m/s]
+
+}  // namespace
+
 std::optional<Landing> landing_of(const Body& body) {
   return body.approach ? body.approach->landing(body) : body.landing;
 }
@@ -332,6 +339,34 @@ bool lands(const Motion& motion) {
   return !landing || motion.centerline().slope_angle(0.0) <= landing->angle.radians() + kRounding;
 }
 
+bool stands_where_it_lands(const Motion& motion) {
+  return lands(motion) && motion.body().landing && motion.body().entry_speed <= kStopped;
+}
+
+bool enters(const Motion& motion) {
+  return lands(motion) && !stands_where_it_lands(motion);
+}
+
+RideEnd ride_end(const Motion& motion) {
+  if (!lands(motion)) return RideEnd::flies_over_start;
+  if (stands_where_it_lands(motion)) return RideEnd::stands_at_start;
+  if (motion.arrived()) return RideEnd::arrived;
+  if (motion.stall()) return RideEnd::stalled;
+  if (motion.lift_off()) return RideEnd::lifted_off;
+  return motion.law_end()->what == "valley_radius_m" ? RideEnd::does_not_fit : RideEnd::choked;
+}
+
+std::string_view to_text(RideEnd end) {
+  constexpr std::array<std::string_view, 7> kTexts = {"arrived",
+                                                      "stalled",
+                                                      "lifted off",
+                                                      "does not fit",
+                                                      "choked",
+                                                      "flies over the start",
+                                                      "stands where it lands"};
+  return kTexts[static_cast<std::size_t>(end)];
+}
+
 Friction least_friction(const Body& body) {
   Friction least = body.friction;
   for (const FrictionChange& change : body.friction_changes) least = std::min(least, change.friction);
@@ -342,8 +377,7 @@ Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   if (!centerline) throw InputError({"", "there is no centerline to ride on", "", ""});
   body.landing = landing_of(body);
   if (body.landing) {
-    // What friction stops at once is a stream without speed: it chokes where it lands.
-    constexpr double kStopped = 1e-9;
+    // What friction stops at once stands where it lands; a law that needs speed ends there.
     const double left =
         speed_after(*body.landing, Angle::from_radians(centerline->slope_angle(0.0)), body.friction);
     body.entry_speed = std::max(left, kStopped);

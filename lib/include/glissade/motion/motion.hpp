@@ -211,6 +211,27 @@ class Motion {
 /// @return whether what comes down on the start of its track meets it: the floor there is no steeper than its way. What
 ///         does not flies over the start, and its ride stands for nothing; true of a body without a Landing
 [[nodiscard]] bool lands(const Motion& motion);
+/// @return whether what lands stands there: theta + phi >= 90 deg, theta the angle between its way and the floor and phi the
+///         friction angle, so that friction takes all of its speed. Its ride, too, stands for nothing; false without a Landing
+[[nodiscard]] bool stands_where_it_lands(const Motion& motion);
+/// @return whether a body gets onto its track: it lands there and does not stand where it does. What is told of the ride of
+///         another would follow from an impact that is none
+[[nodiscard]] bool enters(const Motion& motion);
+
+/// How a ride ended.
+enum class RideEnd {
+  arrived,
+  stalled,
+  lifted_off,
+  does_not_fit,      ///< into a valley
+  choked,            ///< a stream
+  flies_over_start,  ///< a feed: !lands()
+  stands_at_start    ///< a feed: stands_where_it_lands()
+};
+
+[[nodiscard]] RideEnd ride_end(const Motion& motion);
+/// @return "arrived", "stalled", "lifted off", "does not fit", "choked", "flies over the start", "stands where it lands"
+[[nodiscard]] std::string_view to_text(RideEnd end);
 
 /// Stated bound of the relative error of Motion's speeds and times, measured in docs/accuracy.md.
 inline constexpr double kMotionAccuracy = 1e-10;

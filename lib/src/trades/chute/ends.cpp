@@ -50,6 +50,18 @@ Impact impact_on(const Landing& landing, Angle slope_angle, Friction friction, d
   return impact;
 }
 
+Angle steepest_impact(double share, Friction friction) {
+  const double phi = friction.angle().radians();
+  return Angle::from_radians(math::acos(share * math::cos(phi)) - phi);
+}
+
+std::optional<Friction> most_friction_of_impact(double share, Angle angle) {
+  const double left = math::cos(angle.radians()) - share;
+  if (left < 0.0) return {};
+  const double into = math::sin(angle.radians());
+  return Friction::from_angle(Angle::from_radians(math::atan2(left, into)));
+}
+
 BeltLanding land_on_belt(double exit_speed, Angle slope_angle, const ReceivingBelt& belt, double bulk_density,
                          double gravity) {
   const double ahead = exit_speed * math::cos(slope_angle.radians());

@@ -4,6 +4,8 @@
 #include "glissade/core/vec.hpp"
 #include "glissade/motion/motion.hpp"
 
+#include <optional>
+
 namespace glissade {
 
 /// The head pulley of a belt that feeds a chute.
@@ -37,12 +39,23 @@ struct FeedFall {
 /// What the impact of a feed does (docs/chutes.md, feed).
 struct Impact {
   Angle angle;               ///< theta, between the way of the stream and the floor
-  double speed_ratio = 0.0;  ///< V2/V1 = cos(theta + phi)/cos(phi); not positive: it stalls there
+  double speed_ratio = 0.0;  ///< V2/V1 = cos(theta + phi)/cos(phi); not positive: it stands there
   double pressure = 0.0;     ///< rho V1^2 sin^2(theta) [Pa]
 };
 
 [[nodiscard]] Impact impact_on(const Landing& landing, Angle slope_angle, Friction friction,
                                double bulk_density);
+
+/// The share of its speed that practice wants an impact to leave: rule `chute.4.impact-ratio`.
+inline constexpr double kSpeedToKeep =
+    0.3;  // theory: Stuart-Dick and Royal 1991; practice of chute designers
+/// @param share  of the speed, (0, 1]
+/// @return the greatest theta at which an impact leaves it: cos(theta + phi) = share cos(phi)
+[[nodiscard]] Angle steepest_impact(double share, Friction friction);
+/// @param share  of the speed, (0, 1]
+/// @param angle  theta
+/// @return the most friction with which an impact leaves it; none if not even one without friction does
+[[nodiscard]] std::optional<Friction> most_friction_of_impact(double share, Angle angle);
 
 /// A belt that takes a stream away.
 struct ReceivingBelt {
