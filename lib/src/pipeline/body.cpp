@@ -81,8 +81,19 @@ std::optional<Impact> impact_of(const Design& design, const Motion& motion) {
 
 WearFacts wear_at_frictions(const Track& track) {
   std::vector<const Motion*> motions;
-  for (const LevelRide& ride : track.rides()) motions.push_back(ride.motion);
-  return wear_of(motions);
+  std::vector<std::size_t> places;
+  const std::vector<LevelRide> rides = track.rides();
+  for (std::size_t i = 0; i < rides.size(); ++i) {
+    // What flies over the start, or stands there, rubs nothing.
+    if (!enters(*rides[i].motion)) continue;
+    motions.push_back(rides[i].motion);
+    places.push_back(i);
+  }
+  if (motions.empty()) return {};
+  WearFacts facts = wear_of(motions);
+  facts.ride = places[facts.ride];
+  facts.pressed_ride = places[facts.pressed_ride];
+  return facts;
 }
 
 std::vector<FloorWear> pipeline::floor_wear(const Design& design, const Track& track) {
@@ -163,7 +174,10 @@ Issue choke_problem(const Design& design, const LawEnd& end, const std::string& 
               (over_wall ? "as high as the wall: it spills over."
                          : "as deep as the channel is wide: Roberts' law of a fast, thin stream ends."),
           std::string("a steeper track, a wider channel, ") + (over_wall ? "a higher wall, " : "") +
-              "a higher entry_speed, or less flow or friction"};
+              // Beside a feed there is no entry_speed to give.
+              (design.feed ? "a start nearer to the direction of the fall, which leaves more speed, "
+                           : "a higher entry_speed, ") +
+              "or less flow or friction"};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "glissade/core/units.hpp"
 #include "glissade/design/materials.hpp"
 #include "glissade/design/stream_channel.hpp"
+#include "glissade/motion/stall_friction.hpp"
 #include "glissade/pipeline/flights.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
@@ -16,10 +17,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace glissade::pipeline {
 namespace {
+
+std::string case_text(const ChuteCase& of) {
+  return std::string(to_text(of.friction)) + " friction, " + of.flow + " flow";
+}
 
 /// Keeps the worst of several cases, with the case that it is of.
 class WorstCase {
@@ -34,7 +40,7 @@ class WorstCase {
     if (value_ && sign_ * value < sign_ * *value_) return;
     value_ = value;
     arc_length_ = arc_length;
-    place_ = part + std::string(to_text(of.friction)) + " friction, " + of.flow + " flow";
+    place_ = part + case_text(of);
   }
   void set_in(Measurements& measurements, std::string_view key) const {
     if (value_) measurements.set(key, *value_, arc_length_, place_);
@@ -49,8 +55,26 @@ class WorstCase {
 
 constexpr const char* kAtHood = "hood, ";
 
+/// The greatest flow at the lowest density, at which it is deepest.
+Body surging(const StreamDesign& stream, const Body& body) {
+  return with_flow(with_density(body, stream.low_density.value_or(stream.bulk_density)), stream.surge);
+}
+
 double highest_friction_angle(const Design& design) {
   return design.body.high_friction.value_or(design.body.friction).angle().radians();
+}
+
+/// Of all flows the largest stops first: it is deeper at each speed, rubs more and is slower.
+void measure_stall_margin(const Design& design, const Track& track, double high, Measurements& measurements) {
+  if (!lands(track.motion)) {
+    measurements.set_missing("stall_margin", "a feed that lands: it flies over the start");
+    return;
+  }
+  const StreamDesign& stream = *design.stream;
+  const bool surges = stream.surge > 1.0;
+  const Body body = surges ? surging(stream, body_of(design)) : body_of(design);
+  if (const auto stops = stall_friction_angle(track.centerline, body, design.gravity))
+    measurements.set("stall_margin", stops->radians() - high, {}, surges ? "surge flow" : "nominal flow");
 }
 
 void measure_slopes(const Design& design, const Track& track, Measurements& measurements) {
@@ -75,7 +99,39 @@ void measure_slopes(const Design& design, const Track& track, Measurements& meas
     return -math::asin(math::sin(centerline.slope_angle(s)) * math::cos(turned));
   });
   measurements.set("valley_angle", -valley.value, valley.at);
-  if (const auto stops = stall_angle_of(track)) measurements.set("stall_margin", stops->radians() - high);
+  measure_stall_margin(design, track, high, measurements);
+}
+
+/// Whether a case passes its hood, if it has one, gets onto its track and down to the finish.
+bool arrives(const ChuteCase& run) {
+  return (!run.hood || run.hood->holds()) && run.motion.arrived() && enters(run.motion);
+}
+
+/// How many cases do not arrive, and of that which ends first where and how.
+void measure_arrivals(const std::vector<ChuteCase>& cases, Measurements& measurements) {
+  const ChuteCase* first = nullptr;
+  double count = 0.0;
+  // What ends below its hood ends before what comes to the track, what does not get onto that before what does.
+  const auto way = [](const ChuteCase& run) {
+    if (run.hood && !run.hood->holds()) return -1.0;
+    return enters(run.motion) ? run.motion.distance() : 0.0;
+  };
+  for (const ChuteCase& run : cases) {
+    if (arrives(run)) continue;
+    count += 1.0;
+    // Of equals the last, as the other rules have it.
+    if (first == nullptr || way(run) <= way(*first)) first = &run;
+  }
+  if (first == nullptr) {
+    measurements.set("cases_not_arriving", 0.0);
+    return;
+  }
+  const bool below_hood = way(*first) < 0.0;
+  const std::string_view how = !below_hood                      ? to_text(ride_end(first->motion))
+                               : first->hood->motion.lift_off() ? "leaves it before its lower edge"
+                                                                : "comes to a stand";
+  measurements.set("cases_not_arriving", count, below_hood ? std::nullopt : std::optional(way(*first)),
+                   (below_hood ? kAtHood : "") + case_text(*first) + ": " + std::string(how));
 }
 
 /// What the stream does on the track and below a hood before it: the worst of all cases.
@@ -96,6 +152,9 @@ class WorstRides {
 
 void WorstRides::see(const ChuteCase& run, double wall) {
   const Motion& motion = run.motion;
+  // What flies over the start is no ride, and what stands there only slow.
+  if (stands_where_it_lands(motion)) slowest_.see(0.0, 0.0, run);
+  if (!enters(motion)) return;
   const BulkStream& stream = *stream_of(motion.body());
   const QuantityPeak slow = motion.highest([](const LawState& at) { return -std::sqrt(at.v); });
   slowest_.see(-slow.value, slow.arc_length, run);
@@ -116,6 +175,10 @@ void WorstRides::see(const ChuteCase& run, double wall) {
 
 void WorstRides::see_hood(const ChuteCase& run, double wall) {
   const Motion& motion = run.hood->motion;
+  if (!(run.hood->impact.speed_ratio > 0.0)) {
+    slowest_.see(0.0, {}, run, kAtHood);
+    return;
+  }
   const double width = stream_of(motion.body())->width(0.0);
   const double depth = motion.highest(BulkStream::kDepth).value;
   deepest_.see(depth / wall, {}, run, kAtHood);
@@ -138,8 +201,7 @@ void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, M
   WorstRides worst;
   const double wall = stream_channel(design.cross_section.value()).value().wall_height;
   for (const ChuteCase& run : cases) {
-    // What flies over the start is no ride.
-    if (lands(run.motion)) worst.see(run, wall);
+    worst.see(run, wall);
     if (run.hood) worst.see_hood(run, wall);
   }
   worst.set_in(measurements);
@@ -165,10 +227,13 @@ void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Mea
     margin.see(impact ? std::max(0.0, steeper) : steeper, 0.0, run);
     all_land = all_land && impact;
     if (!impact) continue;
-    ratio.see(impact->speed_ratio, 0.0, run);
-    angle.see(impact->angle.radians(), 0.0, run);
+    // Friction takes no more than all of the speed; what stands below its hood has none to lose.
+    if (!run.hood || run.hood->holds() || run.hood->motion.lift_off()) {
+      ratio.see(std::max(0.0, impact->speed_ratio), 0.0, run);
+      angle.see(impact->angle.radians(), 0.0, run);
+    }
     if (!run.hood) continue;
-    ratio.see(run.hood->impact.speed_ratio, {}, run, kAtHood);
+    ratio.see(std::max(0.0, run.hood->impact.speed_ratio), {}, run, kAtHood);
     angle.see(run.hood->impact.angle.radians(), {}, run, kAtHood);
   }
   margin.set_in(measurements, "landing_margin");
@@ -192,7 +257,7 @@ void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases
   const BeltLanding* worst = nullptr;
   std::vector<std::pair<BeltLanding, const ChuteCase*>> landings;
   for (const ChuteCase& run : cases) {
-    if (run.motion.arrived() && lands(run.motion))
+    if (run.motion.arrived() && enters(run.motion))
       landings.emplace_back(belt_landing(design, run.motion), &run);
   }
   const ChuteCase* of = nullptr;
@@ -257,16 +322,36 @@ void measure_speed(const Design& design, const std::vector<ChuteCase>& cases, Me
   WorstCase fastest(1.0);
   for (const ChuteCase& run : cases) {
     const MotionState state = run.motion.highest_speed();
-    if (lands(run.motion)) fastest.see(state.speed / *cap, state.arc_length, run);
+    if (enters(run.motion)) fastest.see(state.speed / *cap, state.arc_length, run);
     if (run.hood) fastest.see(run.hood->motion.highest_speed().speed / *cap, {}, run, kAtHood);
   }
   fastest.set_in(measurements, "speed_over_cap");
 }
 
+/// Faces converge where the channel is narrower than somewhere before; between its knots a width does not turn.
+void measure_narrowing(const BulkStream& stream, double length, Measurements& measurements) {
+  std::vector<double> places;
+  for (const WidthAt& knot : stream.shape().width.knots()) {
+    if (knot.at > 0.0 && knot.at < length) places.push_back(knot.at);
+  }
+  places.push_back(length);
+  double widest = stream.width(0.0);
+  double least = 1.0;
+  std::optional<double> where;
+  for (const double at : places) {
+    const double share = stream.width(at) / widest;
+    widest = std::max(widest, stream.width(at));
+    if (share >= least) continue;
+    least = share;
+    where = at;
+  }
+  measurements.set("narrowing", least, where);
+}
+
 void measure_channel(const Design& design, const Track& track, Measurements& measurements) {
   const BulkStream& stream = *stream_of(track.motion.body());
   const double narrowest = stream.shape().width.narrowest();
-  measurements.set("narrowing", narrowest / stream.width(0.0));
+  measure_narrowing(stream, track.centerline->length(), measurements);
   if (design.stream->lump_size) {
     measurements.set("width_over_lump", narrowest / *design.stream->lump_size);
   } else {
@@ -301,8 +386,7 @@ std::vector<ChuteCase> chute_cases(const Design& design, const CenterlinePtr& ce
     };
     if (stream.trickle < 1.0) add("trickle", with_flow(body, stream.trickle));
     add("nominal", body);
-    const Body light = with_density(body, stream.low_density.value_or(stream.bulk_density));
-    if (stream.surge > 1.0) add("surge", with_flow(light, stream.surge));
+    if (stream.surge > 1.0) add("surge", surging(stream, body));
   }
   return cases;
 }
@@ -353,6 +437,7 @@ void measure_chute(const Design& design, const Track& track, Measurements& measu
   if (!design.stream) return;
   const std::vector<ChuteCase> cases = chute_cases(design, track.centerline);
   measure_slopes(design, track, measurements);
+  measure_arrivals(cases, measurements);
   measure_motion(design, cases, measurements);
   measure_feed(design, cases, measurements);
   measure_discharge(design, cases, measurements);

@@ -49,6 +49,7 @@ Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& fr
 }
 
 std::optional<Angle> stall_angle_of(const Track& track) {
+  if (!lands(track.motion)) return {};
   return stall_friction_angle(track.centerline, track.motion.body(), track.motion.gravity());
 }
 

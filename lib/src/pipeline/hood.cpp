@@ -103,7 +103,15 @@ Issue no_contact(const Design& design, const HoodPassage& passage, const std::st
           how, "a smaller radius, a faster belt, or less impact_angle"};
 }
 
-Issue stands(const Design& design, const HoodPassage& passage, const std::string& when) {
+Issue stands(const Design& design, const HoodPassage& passage, const Friction& friction,
+             const std::string& when) {
+  if (!(passage.impact.speed_ratio > 0.0)) {
+    return {design.where("hood"), when + "the stream stands where it meets the hood",
+            "Friction takes all of its speed: impact_angle, " + angle_text(passage.impact.angle, 3) +
+                ", and the friction angle, " + angle_text(friction.angle(), 3) + ", make 90 deg or more.",
+            "an impact_angle of at most " + angle_text(steepest_impact(kSpeedToKeep, friction), 2) +
+                ", or less friction"};
+  }
   return {
       design.where("hood"),
       when + "the stream comes to a stand below the hood, after " + length_text(passage.motion.distance()),
@@ -120,7 +128,8 @@ std::optional<Issue> problem_at(const Design& design, FrictionLevel level, const
   const bool range = design.body.low_friction || design.body.high_friction;
   const std::string when =
       !range ? "" : "at " + std::string(to_text(level)) + " friction, " + angle_text(friction.angle()) + ", ";
-  return passage.motion.lift_off() ? no_contact(design, passage, when) : stands(design, passage, when);
+  return passage.motion.lift_off() ? no_contact(design, passage, when)
+                                   : stands(design, passage, friction, when);
 }
 
 /// Limits on where things may be, seen from where the feed meets the hood and turned over with it.
@@ -247,7 +256,7 @@ double cost_of(const Design& design, const CenterlinePtr& centerline) {
   Body body = body_of(design);
   if (design.objective.worst_case && design.body.high_friction) body.friction = *design.body.high_friction;
   const Motion motion(centerline, body, design.gravity);
-  if (!motion.arrived()) return std::numeric_limits<double>::infinity();
+  if (!motion.arrived() || !enters(motion)) return std::numeric_limits<double>::infinity();
   const double time = transfer_time(design, motion);
   switch (design.objective.kind) {
     case ObjectiveKind::exit_speed:

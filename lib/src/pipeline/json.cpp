@@ -168,7 +168,7 @@ Json cases_json(const Design& design, const CenterlinePtr& centerline) {
                  {"highest_speed_m_per_s", entry["highest_speed_m_per_s"]},
                  {"stream", entry["stream"]}};
     if (run.hood) kept["hood"] = hood_passage_json(*run.hood);
-    if (design.discharge && run.motion.arrived() && lands(run.motion))
+    if (design.discharge && run.motion.arrived() && enters(run.motion))
       kept["discharge"] = belt_landing_json(belt_landing(design, run.motion));
     list.push_back(std::move(kept));
   }
@@ -208,7 +208,8 @@ void add_hood(Json& json, const Design& design, const Track& track, const std::o
   const HoodPassage passage = hood_passage(design, track.motion.body());
   json["feed"] = feed_json(feed_fall(design), passage.impact, passage.motion.body().entry_speed);
   json["hood"] = hood_json(pipeline::shape_of(*design.hood), passage, impact);
-  json["hood"]["transfer_time_s"] = transfer_time(design, track.motion);
+  const bool there = track.motion.arrived() && enters(track.motion);
+  json["hood"]["transfer_time_s"] = there ? Json(transfer_time(design, track.motion)) : Json(nullptr);
   const Range spread = landing_spread(design, track);
   json["hood"]["landing_spread_m"] = {*spread.lowest, *spread.highest};
 }
@@ -222,19 +223,21 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   add_ride(json, track.motion);
   if (design.feed) {
     const std::optional<Impact> impact = impact_of(design, track.motion);
-    const double entry_speed = track.motion.body().entry_speed;
+    const double entry_speed = enters(track.motion) ? track.motion.body().entry_speed : 0.0;
     json["entry_speed_m_per_s"] = impact ? Json(entry_speed) : Json(nullptr);
     json["feed"] = feed_json(feed_fall(design), impact, entry_speed);
     if (design.hood) add_hood(json, design, track, impact);
   }
   if (design.discharge) {
-    json["discharge"] = track.motion.arrived() && lands(track.motion)
+    json["discharge"] = track.motion.arrived() && enters(track.motion)
                             ? belt_landing_json(belt_landing(design, track.motion))
                             : Json(nullptr);
   }
   if (design.stream) {
     json["stream"]["choking_mass_flow_kg_per_s"] =
-        number(choking_mass_flow(track.centerline, track.motion.body(), design.gravity));
+        enters(track.motion)
+            ? number(choking_mass_flow(track.centerline, track.motion.body(), design.gravity))
+            : Json(nullptr);
   }
   json["straight_travel_time_s"] = number(track.straight_travel_time());
   json["optimum_travel_time_s"] = number(track.optimum_travel_time);
@@ -249,8 +252,8 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   json["rules"] = report::rules_json(judge_rules(design, track));
   if (design.stream) {
     json["wear"] = wear_json(design, track);
-    // What flies over the start wears nothing; a reader finds the same keys.
-    if (!lands(track.motion)) {
+    // What flies over the start, or stands there, wears nothing; a reader finds the same keys.
+    if (!enters(track.motion)) {
       for (auto& [key, value] : json["wear"].items()) value = nullptr;
     }
     json["verdicts"] = json["rules"];

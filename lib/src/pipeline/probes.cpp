@@ -57,7 +57,7 @@ std::vector<ProbeReading> probe_readings(const Design& design, const Track& trac
     reading.position = track.placement.to_space(reading.point.x, reading.point.drop, 0.0);
     for (const LevelRide& ride : track.rides()) {
       ProbeState state{ride.level, {}};
-      if (*s <= ride.motion->distance()) state.motion = ride.motion->at(*s);
+      if (enters(*ride.motion) && *s <= ride.motion->distance()) state.motion = ride.motion->at(*s);
       reading.states.push_back(state);
     }
     readings.push_back(std::move(reading));

@@ -29,7 +29,8 @@ constexpr const char* kReportEnding = ".report.html";
 
 ReportWhatIf as_reported(const Design& design, const WhatIfRide& one) {
   ReportWhatIf reported{one.mass_flow, one.motion.body().friction, one.nominal, &one.motion, {}, {}};
-  if (design.discharge && one.motion.arrived()) reported.landing = belt_landing(design, one.motion);
+  if (design.discharge && one.motion.arrived() && enters(one.motion))
+    reported.landing = belt_landing(design, one.motion);
   reported.flight = flight_to_belt(design, one.motion);
   return reported;
 }

@@ -81,7 +81,7 @@ void measure_rides(const Track& track, Measurements& measurements) {
   const std::vector<LevelRide> rides = track.rides();
   for (const LevelRide& ride : rides) {
     const Motion& motion = *ride.motion;
-    if (!lands(motion)) continue;
+    if (!enters(motion)) continue;
     const std::string place = rides.size() > 1 ? std::string(to_text(ride.level)) + " friction" : "";
     const MotionState fastest = motion.highest_speed();
     const MotionState heaviest = motion.highest_load();

@@ -184,7 +184,7 @@ Endpoints endpoints_of(const Centerline& centerline) {
 
 std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body, double gravity) {
   Motion ride(std::make_shared<StraightLine>(endpoints), body, gravity);
-  if (!ride.arrived()) return {};
+  if (!ride.arrived() || !enters(ride)) return {};
   return ride;
 }
 
@@ -424,11 +424,94 @@ std::optional<Issue> feed_problem(const Design& design, const Track& track) {
                    angle_text(falls, 3) + "}}"};
 }
 
+// Tenths of a degree, rounded to the side that helps.
+constexpr double kShownSteps = 10.0;  // taste
+
+Angle shown_up(Angle angle) {
+  return Angle::from_degrees(std::ceil(kShownSteps * angle.degrees()) / kShownSteps);
+}
+Angle shown_down(Angle angle) {
+  return Angle::from_degrees(std::floor(kShownSteps * angle.degrees()) / kShownSteps);
+}
+
+/// What would do in place of a feed that stands where it lands: the impact then leaves what practice asks for. Only what
+/// brings the stream to the finish is told.
+class WaysOut {
+ public:
+  WaysOut(const Design& design, const Track& track, const Motion& motion)
+      : design_(design), track_(track), motion_(motion) {}
+
+  [[nodiscard]] std::string text() const {
+    std::string text;
+    for (const std::string& way : {floor(), friction(), feed()}) {
+      if (!way.empty()) text += (text.empty() ? "" : ", or ") + way;
+    }
+    if (text.empty()) return "less friction, or a floor nearer to the direction of the fall";
+    return text + ": the impact then leaves " + rounded_text(kSpeedToKeep, 2) + " of the speed";
+  }
+
+ private:
+  [[nodiscard]] Angle falls() const { return motion_.body().landing->angle; }
+  [[nodiscard]] Angle slope() const { return Angle::from_radians(motion_.centerline().slope_angle(0.0)); }
+  [[nodiscard]] Angle steepest() const { return steepest_impact(kSpeedToKeep, motion_.body().friction); }
+  [[nodiscard]] bool arrives(const CenterlinePtr& centerline, const Body& body) const {
+    const Motion tried(centerline, body, design_.gravity);
+    return tried.arrived() && enters(tried);
+  }
+
+  [[nodiscard]] std::string floor() const {
+    const Angle least = std::min(falls(), shown_up(falls() - steepest()));
+    // A floor that is upright has no run; one that climbs leads nowhere.
+    constexpr double kMost = 89.9;  // taste [deg]
+    if (!(least.degrees() > 0.0 && least.degrees() < kMost)) return {};
+    const double length = track_.centerline->length();
+    const Endpoints ends{length * math::cos(least.radians()), length * math::sin(least.radians())};
+    if (!arrives(std::make_shared<const StraightLine>(ends), motion_.body())) return {};
+    return "a floor of at least " + angle_text(least) + " where it lands";
+  }
+
+  [[nodiscard]] std::string friction() const {
+    const auto kept = most_friction_of_impact(kSpeedToKeep, falls() - slope());
+    const std::optional<Angle> stops = stall_angle_of(track_);
+    if (!kept || !stops) return {};
+    const Angle most = shown_down(std::min(kept->angle(), *stops));
+    Body body = motion_.body();
+    body.friction = Friction::from_angle(most);
+    return arrives(track_.centerline, body) ? "a friction angle of at most " + angle_text(most)
+                                            : std::string();
+  }
+
+  [[nodiscard]] std::string feed() const {
+    if (design_.hood || design_.feed->kind != FeedKind::belt) return {};
+    const Angle most = shown_down(slope() + steepest());
+    Body body = motion_.body();
+    body.landing->angle = most;
+    if (!arrives(track_.centerline, body)) return {};
+    return "a feed that falls at " + angle_text(slope(), 3) + " to " + angle_text(most) +
+           " (a faster belt, or less drop)";
+  }
+
+  const Design& design_;
+  const Track& track_;
+  const Motion& motion_;
+};
+
+/// A feed of which friction takes all the speed where it lands.
+Issue stand_problem(const Design& design, const Track& track, const Motion& motion, const std::string& when) {
+  const Angle steeper =
+      motion.body().landing->angle - Angle::from_radians(motion.centerline().slope_angle(0.0));
+  return {design.where("feed"), when + "the feed stands where it lands: friction takes all of its speed",
+          "It falls " + angle_text(steeper, 3) + " steeper than the floor; with the friction angle, " +
+              angle_text(motion.body().friction.angle()) + ", that is 90 deg or more.",
+          WaysOut(design, track, motion).text()};
+}
+
 /// What keeps one ride from the finish. Of a ride at the nominal friction the friction needs no name.
 std::optional<Issue> problem_of_ride(const Design& design, const Track& track, const LevelRide& ride) {
   const Motion& motion = *ride.motion;
   const double length = track.centerline->length();
   const std::string when = ride.level == FrictionLevel::nominal ? "" : at_friction_text(ride) + ", ";
+  if (stands_where_it_lands(motion)) return stand_problem(design, track, motion, when);
   if (const auto& stall = motion.stall()) {
     const auto [stalls_after, whole] = texts_apart(stall->arc_length, length, &length_text);
     const bool all_but_there = stalls_after == whole;  // nearer than digits tell
@@ -460,19 +543,28 @@ std::optional<Issue> problem_of_ride(const Design& design, const Track& track, c
 
 }  // namespace
 
-std::optional<Issue> ride_problem(const Design& design, const Track& track) {
-  if (auto problem = feed_problem(design, track)) return problem;
-  if (auto problem = problem_of_ride(design, track, {FrictionLevel::nominal, &track.motion})) return problem;
+std::optional<LevelRide> ride_that_fails(const Track& track) {
+  for (const LevelRide& ride : track.rides()) {
+    if (!lands(*ride.motion)) return ride;
+  }
+  if (!track.motion.arrived()) return LevelRide{FrictionLevel::nominal, &track.motion};
   for (const RangeRide& ride : track.range) {
-    auto problem = problem_of_ride(design, track, {ride.level, &ride.motion});
-    if (!problem) continue;
-    const bool searched = design.limits && design.centerline.kind == CenterlineKind::fastest;
-    if (design.centerline.kind == CenterlineKind::fastest && !searched) {
-      problem->hint = "limits: {}, which finds the fastest track that holds over the whole range of friction";
-    }
-    return problem;
+    if (!ride.motion.arrived()) return LevelRide{ride.level, &ride.motion};
   }
   return {};
+}
+
+std::optional<Issue> ride_problem(const Design& design, const Track& track) {
+  const std::optional<LevelRide> fails = ride_that_fails(track);
+  if (!fails) return {};
+  if (auto problem = feed_problem(design, track)) return problem;
+  auto problem = problem_of_ride(design, track, *fails);
+  const bool searched = design.limits && design.centerline.kind == CenterlineKind::fastest;
+  if (problem && fails->level != FrictionLevel::nominal && !searched &&
+      design.centerline.kind == CenterlineKind::fastest) {
+    problem->hint = "limits: {}, which finds the fastest track that holds over the whole range of friction";
+  }
+  return problem;
 }
 
 }  // namespace glissade

@@ -160,7 +160,7 @@ std::optional<Issue> all_but_stalls(const Design& design, const Track& track) {
   constexpr Angle kSteepest = Angle::from_degrees(89.9);  // rounding: as stalls_at() has it
   // Of a friction range the highest one, which comes last.
   const Motion& slowest = *track.rides().back().motion;
-  if (!slowest.arrived()) return {};
+  if (!slowest.arrived() || !enters(slowest)) return {};
   const Angle friction = slowest.body().friction.angle();
   if (friction + kMore > kSteepest) return {};
   if (!stalls_at(track.centerline, slowest.body(), friction + kMore, slowest.gravity())) return {};

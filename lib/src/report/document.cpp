@@ -328,7 +328,8 @@ Json what_if_ride(const ReportWhatIf& one) {
     line["x_m"].push_back(at.x);
     line["z_m"].push_back(-at.drop);
     line["slope_angle_deg"].push_back(degrees(at.slope_angle));
-    line["burden_depth_m"].push_back(motion.quantity(BulkStream::kDepth, s));
+    // What does not get onto its track is no stream there.
+    line["burden_depth_m"].push_back(enters(motion) ? motion.quantity(BulkStream::kDepth, s) : 0.0);
     line["speed_m_per_s"].push_back(motion.at(s).speed);
   }
   Json flight = Json::array();

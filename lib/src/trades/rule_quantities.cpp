@@ -51,6 +51,7 @@ constexpr std::array kOfTracks = std::to_array<RuleQuantity>({
     // chutes: the worst over low, nominal and high friction, and over trickle, nominal and surge flow
     {"highest_friction_angle", angle, "highest friction angle"},
     {"friction_spread", angle, "highest less lowest friction angle"},
+    {"cases_not_arriving", number, "cases of friction and flow that do not arrive"},
     {"lowest_stream_speed", speed, "lowest speed of the stream"},
     {"stall_margin", angle, "friction angle at which the stream stops, less the highest"},
     {"slope_margin", angle, "flattest slope angle less the highest friction angle"},
@@ -71,7 +72,7 @@ constexpr std::array kOfTracks = std::to_array<RuleQuantity>({
     {"width_over_lump", number, "width over the largest lump"},
     {"speed_over_cap", number, "highest speed over what the material stands"},
     {"wear_peak", number, "highest wear of the floor over its mean"},
-    {"narrowing", number, "narrowest width over that at the start"},
+    {"narrowing", number, "least width over the widest before it"},
     {"corner_radius", length, "radius of the inner corners"},
     {"inspection_doors", number, "inspection doors off the wearing side"},
     {"plugged_load", number, "strength over the load of a plugged chute"},

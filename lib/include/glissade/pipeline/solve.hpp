@@ -51,7 +51,8 @@ namespace glissade {
 
 /// How the stream of a ride comes down on the start of its track.
 /// @param design  with a stream
-/// @return none of one that enters along the track, or flies over the start (lands())
+/// @return none of one that enters along the track, or flies over the start (lands()); of one that stands where it lands the
+///         impact that takes all of its speed
 [[nodiscard]] std::optional<Impact> impact_of(const Design& design, const Motion& motion);
 
 /// How the stream of a ride lands on the belt of a design.
@@ -59,8 +60,9 @@ namespace glissade {
 /// @param motion  arrived
 [[nodiscard]] BeltLanding belt_landing(const Design& design, const Motion& motion);
 
-/// Where the stream of a track wears its chute, over every friction of the design.
+/// Where the stream of a track wears its chute, over every friction of the design at which it gets onto its track (enters()).
 /// @param track  of a design with a stream
+/// @return rides counted as in Track::rides(); nothing worn where none enters
 [[nodiscard]] WearFacts wear_at_frictions(const Track& track);
 
 /// How fast a liner gets thinner where it wears most.
@@ -104,7 +106,8 @@ struct LinerLoss {
 /// @param centerline  a track of that design
 [[nodiscard]] Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction);
 
-/// The friction angle from which on a track's body stalls on it: stall_friction_angle() of the nominal ride.
+/// The friction angle from which on a track's body stalls on it: stall_friction_angle() of the nominal ride; none, too, of a
+/// feed that flies over the start.
 [[nodiscard]] std::optional<Angle> stall_angle_of(const Track& track);
 
 /// Design to centerline and motion. With limits, the kind fastest is searched for within them, and so it is for a
@@ -119,6 +122,10 @@ struct LinerLoss {
 /// @return what to call a track that was searched for: "fastest within the limits", "of the highest exit speed within the limits", "fastest, searched for"
 ///         where the search had another reason (drag, a free finish)
 [[nodiscard]] std::string searched_name(const Design& design);
+
+/// The ride that keeps a track from being what was wanted, at a friction of its range.
+/// @return one that flies over the start first, else the nominal one, low, high; none if all arrive
+[[nodiscard]] std::optional<LevelRide> ride_that_fails(const Track& track);
 
 /// Why a ride is not what was wanted: the body stalls or leaves the track, or its law ends.
 /// @return the problem with the place and what is missing there; none if the body arrives

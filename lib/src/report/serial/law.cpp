@@ -15,10 +15,14 @@ Json law_end_json(const std::optional<LawEnd>& end) {
           {"bound", end->bound}};
 }
 
-Json quantity_json(const LawQuantity& quantity, const QuantityPeak& peak) {
-  return {{"quantity", quantity.key},  {"highest", number(peak.value)},
-          {"at_m", peak.arc_length},   {"bound", number(quantity.highest)},
-          {"kept", !peak.beyond_from}, {"beyond_from_m", number(peak.beyond_from)}};
+/// @param peak  null of what does not enter its track
+Json quantity_json(const LawQuantity& quantity, const QuantityPeak* peak) {
+  return {{"quantity", quantity.key},
+          {"highest", peak != nullptr ? number(peak->value) : Json(nullptr)},
+          {"at_m", peak != nullptr ? Json(peak->arc_length) : Json(nullptr)},
+          {"bound", number(quantity.highest)},
+          {"kept", peak != nullptr ? Json(!peak->beyond_from) : Json(nullptr)},
+          {"beyond_from_m", peak != nullptr ? number(peak->beyond_from) : Json(nullptr)}};
 }
 
 /// Tells each measure of a kind of body, its unit in its key.
@@ -45,11 +49,7 @@ class KindJson {
 }  // namespace
 
 std::string_view status_of(const Motion& motion) {
-  if (!lands(motion)) return "flies over the start";
-  if (motion.arrived()) return "arrived";
-  if (motion.stall()) return "stalled";
-  if (motion.lift_off()) return "lifted off";
-  return motion.law_end()->what == "valley_radius_m" ? "does not fit" : "choked";
+  return to_text(ride_end(motion));
 }
 
 void add_law_body(Json& json, const BodyDesign& body) {
@@ -71,11 +71,12 @@ void add_law_body(Json& json, const BodyDesign& body) {
 void add_law(Json& json, const Motion& motion) {
   if (!motion.body().law) return;
   json["inertia_factor"] = motion.body().law->inertia();
-  json["law_end"] = law_end_json(motion.law_end());
+  json["law_end"] = enters(motion) ? law_end_json(motion.law_end()) : Json(nullptr);
   json["law"] = Json::array();
   const std::vector<LawQuantity> quantities = motion.quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
-    json["law"].push_back(quantity_json(quantities[i], motion.highest(i)));
+    const QuantityPeak peak = motion.highest(i);
+    json["law"].push_back(quantity_json(quantities[i], enters(motion) ? &peak : nullptr));
   }
 }
 

@@ -6,7 +6,8 @@
 
 namespace glissade::report {
 
-/// @return "arrived", "stalled", "lifted off", "does not fit" (a valley), "choked", "flies over the start" (a feed)
+/// @return "arrived", "stalled", "lifted off", "does not fit" (a valley), "choked", "flies over the start", "stands where it
+///         lands" (a feed)
 [[nodiscard]] std::string_view status_of(const Motion& motion);
 
 /// What a body is that is not a sliding point: body, rolling_resistance, radius_m, ...; nothing for one.

@@ -2,6 +2,7 @@
 
 #include "glissade/trades/chute/stream.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace glissade::report {
@@ -14,6 +15,11 @@ Json choke_json(const std::optional<Choke>& choke) {
           {"depth_m", choke->depth},
           {"bound_m", choke->bound},
           {"over_wall", choke->over_wall}};
+}
+
+/// V2/V1: friction takes no more than all of it.
+double ratio_left(const Impact& impact) {
+  return std::max(0.0, impact.speed_ratio);
 }
 
 }  // namespace
@@ -40,8 +46,8 @@ Json feed_json(const FeedFall& fall, const std::optional<Impact>& impact, double
   return {{"speed_m_per_s", fall.landing.speed},
           {"angle_deg", degrees(fall.landing.angle)},
           {"impact_angle_deg", if_it_lands(impact ? degrees(impact->angle) : 0.0)},
-          {"speed_ratio", if_it_lands(impact ? impact->speed_ratio : 0.0)},
-          {"entry_speed_m_per_s", if_it_lands(entry_speed)},
+          {"speed_ratio", if_it_lands(impact ? ratio_left(*impact) : 0.0)},
+          {"entry_speed_m_per_s", if_it_lands(impact && ratio_left(*impact) > 0.0 ? entry_speed : 0.0)},
           {"impact_pressure_pa", if_it_lands(impact ? impact->pressure : 0.0)},
           {"reach_m", fall.reach},
           {"time_s", fall.time},
@@ -53,23 +59,26 @@ Json feed_json(const FeedFall& fall, const std::optional<Impact>& impact, double
 Json hood_passage_json(const HoodPassage& passage) {
   const Motion& motion = passage.motion;
   const ValueAt wear = stream_peak(motion, &StreamState::floor_wear);
+  // What stands where it meets the hood is no stream below it.
+  const bool there = passage.impact.speed_ratio > 0.0;
+  const auto told = [&](double value) { return there ? number(value) : Json(nullptr); };
   return {{"holds", passage.holds()},
-          {"contact_at_entry", passage.contact},
-          {"least_contact", passage.least_contact},
+          {"contact_at_entry", told(passage.contact)},
+          {"least_contact", told(passage.least_contact)},
           {"impact_angle_deg", passage.impact.angle.degrees()},
-          {"impact_speed_ratio", passage.impact.speed_ratio},
+          {"impact_speed_ratio", ratio_left(passage.impact)},
           {"impact_pressure_pa", passage.impact.pressure},
-          {"entry_speed_m_per_s", motion.body().entry_speed},
-          {"exit_speed_m_per_s", motion.exit_speed()},
-          {"max_depth_m", motion.highest(BulkStream::kDepth).value},
-          {"highest_wear_w_per_m2", wear.value},
-          {"highest_wear_at_m", wear.arc_length},
-          {"friction_loss_j_per_kg", motion.at(motion.distance()).friction_loss},
-          {"travel_time_s", motion.travel_time()},
-          {"fall_time_s", passage.fall_time},
-          {"reach_m", passage.reach},
-          {"landing_speed_m_per_s", passage.landing.speed},
-          {"landing_angle_deg", passage.landing.angle.degrees()}};
+          {"entry_speed_m_per_s", told(motion.body().entry_speed)},
+          {"exit_speed_m_per_s", told(motion.exit_speed())},
+          {"max_depth_m", told(motion.highest(BulkStream::kDepth).value)},
+          {"highest_wear_w_per_m2", told(wear.value)},
+          {"highest_wear_at_m", told(wear.arc_length)},
+          {"friction_loss_j_per_kg", told(motion.at(motion.distance()).friction_loss)},
+          {"travel_time_s", told(motion.travel_time())},
+          {"fall_time_s", told(passage.fall_time)},
+          {"reach_m", told(passage.reach)},
+          {"landing_speed_m_per_s", told(passage.landing.speed)},
+          {"landing_angle_deg", told(passage.landing.angle.degrees())}};
 }
 
 Json hood_json(const HoodShape& hood, const HoodPassage& passage, const std::optional<Impact>& impact) {
@@ -87,7 +96,7 @@ Json hood_json(const HoodShape& hood, const HoodPassage& passage, const std::opt
   json["edge_run_m"] = edge.x - passage.start.x;
   json["edge_height_m"] = passage.start.y - edge.drop;
   json["landing"] = {{"impact_angle_deg", impact ? Json(impact->angle.degrees()) : Json(nullptr)},
-                     {"speed_ratio", impact ? Json(impact->speed_ratio) : Json(nullptr)},
+                     {"speed_ratio", impact ? Json(ratio_left(*impact)) : Json(nullptr)},
                      {"impact_pressure_pa", impact ? Json(impact->pressure) : Json(nullptr)}};
   return json;
 }
@@ -108,15 +117,18 @@ Json belt_landing_json(const BeltLanding& landing) {
 void add_stream(Json& json, const Motion& motion) {
   const std::optional<StreamFacts> facts = stream_facts(motion);
   if (!facts) return;
-  json["stream"] = {{"max_depth_m", facts->deepest.value},
-                    {"max_depth_at_m", facts->deepest.arc_length},
-                    {"exit_depth_m", lands(motion) ? number(facts->exit_depth) : Json(nullptr)},
-                    {"highest_equivalent_friction", facts->equivalent_friction.value},
-                    {"highest_equivalent_friction_at_m", facts->equivalent_friction.arc_length},
-                    {"highest_filling", facts->filling.value},
-                    {"highest_filling_at_m", facts->filling.arc_length},
-                    {"choked", facts->choke.has_value()},
-                    {"choke", choke_json(facts->choke)}};
+  // What does not enter its track is no stream on it.
+  const bool there = enters(motion);
+  const auto told = [&](double value) { return there ? number(value) : Json(nullptr); };
+  json["stream"] = {{"max_depth_m", told(facts->deepest.value)},
+                    {"max_depth_at_m", told(facts->deepest.arc_length)},
+                    {"exit_depth_m", there ? number(facts->exit_depth) : Json(nullptr)},
+                    {"highest_equivalent_friction", told(facts->equivalent_friction.value)},
+                    {"highest_equivalent_friction_at_m", told(facts->equivalent_friction.arc_length)},
+                    {"highest_filling", told(facts->filling.value)},
+                    {"highest_filling_at_m", told(facts->filling.arc_length)},
+                    {"choked", there && facts->choke.has_value()},
+                    {"choke", there ? choke_json(facts->choke) : Json(nullptr)}};
 }
 
 }  // namespace glissade::report

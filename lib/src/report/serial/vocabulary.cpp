@@ -84,9 +84,10 @@ void add_body(Json& json, const Design& design) {
 }
 
 void add_ride(Json& json, const Motion& motion) {
-  const auto at_finish = [&](double value) {
-    return motion.arrived() && lands(motion) ? number(value) : Json(nullptr);
-  };
+  // Nothing follows from an impact that does not take place, or leaves nothing.
+  const bool there = enters(motion);
+  const auto told = [&](double value) { return there ? number(value) : Json(nullptr); };
+  const auto at_finish = [&](double value) { return motion.arrived() ? told(value) : Json(nullptr); };
   const MotionState fastest = motion.highest_speed();
   const MotionState heaviest = motion.highest_load();
   const MotionState lightest = motion.lowest_load();
@@ -94,16 +95,16 @@ void add_ride(Json& json, const Motion& motion) {
   json["status"] = status_of(motion);
   json["travel_time_s"] = at_finish(motion.travel_time());
   json["exit_speed_m_per_s"] = at_finish(motion.exit_speed());
-  json["highest_speed_m_per_s"] = fastest.speed;
-  json["highest_speed_at_m"] = fastest.arc_length;
-  json["max_normal_load_m_per_s2"] = number(heaviest.normal_load);
-  json["max_normal_load_at_m"] = heaviest.arc_length;
-  json["min_normal_load_m_per_s2"] = number(lightest.normal_load);
-  json["min_normal_load_at_m"] = lightest.arc_length;
-  json["friction_loss_j_per_kg"] = end.friction_loss;
-  json["drag_loss_j_per_kg"] = end.drag_loss;
-  json["stall"] = stall_json(motion.stall());
-  json["lift_off"] = lift_off_json(motion.lift_off());
+  json["highest_speed_m_per_s"] = told(fastest.speed);
+  json["highest_speed_at_m"] = told(fastest.arc_length);
+  json["max_normal_load_m_per_s2"] = told(heaviest.normal_load);
+  json["max_normal_load_at_m"] = told(heaviest.arc_length);
+  json["min_normal_load_m_per_s2"] = told(lightest.normal_load);
+  json["min_normal_load_at_m"] = told(lightest.arc_length);
+  json["friction_loss_j_per_kg"] = told(end.friction_loss);
+  json["drag_loss_j_per_kg"] = told(end.drag_loss);
+  json["stall"] = there ? stall_json(motion.stall()) : Json(nullptr);
+  json["lift_off"] = there ? lift_off_json(motion.lift_off()) : Json(nullptr);
   add_law(json, motion);
   add_stream(json, motion);
 }
