@@ -68,14 +68,14 @@ struct CompareArguments {
 };
 
 std::string ride_text(const Motion& motion) {
-  if (!lands(motion)) return std::string(ride_status(motion));
+  if (!enters(motion)) return std::string(ride_status(motion));
   if (motion.arrived()) return time_text(motion.travel_time());
   if (motion.law_end()) return std::string(ride_status(motion));
   return motion.stall() ? "stalls" : "lifts off";
 }
 
 std::string exit_text(const Motion& motion) {
-  return motion.arrived() && lands(motion) ? speed_text(motion.exit_speed()) : "-";
+  return motion.arrived() && enters(motion) ? speed_text(motion.exit_speed()) : "-";
 }
 
 /// One row a track; of one that does not exist its name and what is wrong.
@@ -99,7 +99,7 @@ Table table_of(std::vector<std::string> headings, const std::vector<Entry>& entr
 using Row = std::vector<std::string>;
 
 std::string excess_text(const Track& track) {
-  if (!track.motion.arrived() || !track.optimum_travel_time) return "-";
+  if (!track.motion.arrived() || !enters(track.motion) || !track.optimum_travel_time) return "-";
   const double percent = 100.0 * (track.motion.travel_time() / *track.optimum_travel_time - 1.0);
   return rounded_text(std::round(percent * 100.0) / 100.0 + 0.0, 4) + " %";
 }
@@ -116,7 +116,7 @@ Table rides_table(const std::string& heading, const std::vector<Entry>& entries,
                excess_text(track),
                exit_text(track.motion),
                angle_text(track.steepest_slope_angle, 3),
-               acceleration_text(track.motion.highest_load().normal_load),
+               enters(track.motion) ? acceleration_text(track.motion.highest_load().normal_load) : "-",
                length_text(track.centerline->length()),
                std::isinf(track.min_radius) ? "straight" : length_text(track.min_radius, 3)};
     if (limited) row.push_back(limits_verdict(track));
@@ -244,10 +244,11 @@ Table designs_page_table(const std::vector<Entry>& entries) {
     const Motion& motion = track.motion;
     const auto broken = std::count_if(track.limit_checks.begin(), track.limit_checks.end(),
                                       [](const LimitCheck& check) { return !check.kept(); });
-    return Row{motion.arrived() ? rounded_text(motion.travel_time(), 5) : "-",
-               motion.arrived() ? rounded_text(motion.exit_speed(), 5) : "-",
+    const bool there = enters(motion);
+    return Row{there && motion.arrived() ? rounded_text(motion.travel_time(), 5) : "-",
+               there && motion.arrived() ? rounded_text(motion.exit_speed(), 5) : "-",
                rounded_text(track.steepest_slope_angle.degrees(), 4),
-               rounded_text(motion.highest_load().normal_load / kStandardGravity, 4),
+               there ? rounded_text(motion.highest_load().normal_load / kStandardGravity, 4) : "-",
                rounded_text(track.endpoints.run, 5),
                rounded_text(track.endpoints.drop, 5),
                rounded_text(track.centerline->length(), 5),

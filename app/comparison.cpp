@@ -164,7 +164,7 @@ std::vector<Figure> over_friction(Design design, const Entry& own, const RunCont
       Design one = of_kind(design, kind);
       one.body.friction = Friction::from_angle(Angle::from_degrees(angle));
       const Entry entry = at_friction(std::move(one), own);
-      const bool arrives = entry.track && entry.track->motion.arrived();
+      const bool arrives = entry.track && entry.track->motion.arrived() && enters(entry.track->motion);
       times.xs.push_back(angle);
       times.ys.push_back(arrives ? entry.track->motion.travel_time() : missing);
       slopes.xs.push_back(angle);

@@ -102,11 +102,7 @@ std::string resistance_text(const Design& design) {
 }
 
 std::string_view ride_status(const Motion& motion) {
-  if (!lands(motion)) return "flies over the start";
-  if (motion.arrived()) return "arrived";
-  if (motion.stall()) return "stalled";
-  if (motion.lift_off()) return "lifted off";
-  return motion.law_end()->what == "valley_radius_m" ? "does not fit" : "choked";
+  return to_text(ride_end(motion));
 }
 
 std::string law_end_text(const Motion& motion) {

@@ -89,7 +89,7 @@ std::string limits_at(const Track& ride) {
     if (!check.kept()) broken += (broken.empty() ? "" : ", ") + check.limit.key();
   }
   if (!broken.empty()) return "breaks " + broken;
-  return ride.motion.arrived() ? "limits kept" : "-";
+  return ride.motion.arrived() && enters(ride.motion) ? "limits kept" : "-";
 }
 
 std::string rides_summary(const Design& design, const Track& track, const std::vector<Track>& rides) {

@@ -15,7 +15,7 @@ namespace {
 constexpr int kDigits = 4;
 
 std::string time_of(const Motion& motion) {
-  if (!lands(motion)) return std::string(ride_status(motion));
+  if (!enters(motion)) return std::string(ride_status(motion));
   if (motion.arrived()) return time_text(motion.travel_time());
   if (motion.stall()) return "stalls after " + length_text(motion.stall()->arc_length, kDigits);
   if (motion.law_end())
@@ -24,6 +24,7 @@ std::string time_of(const Motion& motion) {
 }
 
 std::string margin_text(const Motion& motion, const std::optional<Angle>& stall_angle) {
+  if (!lands(motion)) return "-";
   if (!stall_angle) return "never stalls";
   return angle_text(*stall_angle - motion.body().friction.angle(), 3);
 }
@@ -48,12 +49,13 @@ Table rides_table(const std::string& heading) {
 
 void add_ride(Table& table, const std::string& name, const Motion& motion,
               const std::optional<Angle>& stall_angle, const std::string& limits) {
+  const bool there = enters(motion);
   std::vector<std::string> row = {name,
                                   time_of(motion),
-                                  motion.arrived() && lands(motion) ? speed_text(motion.exit_speed()) : "-",
-                                  speed_text(motion.highest_speed().speed),
-                                  acceleration_text(motion.highest_load().normal_load),
-                                  acceleration_text(motion.lowest_load().normal_load),
+                                  there && motion.arrived() ? speed_text(motion.exit_speed()) : "-",
+                                  there ? speed_text(motion.highest_speed().speed) : "-",
+                                  there ? acceleration_text(motion.highest_load().normal_load) : "-",
+                                  there ? acceleration_text(motion.lowest_load().normal_load) : "-",
                                   margin_text(motion, stall_angle)};
   if (!limits.empty()) row.push_back(limits);
   table.add(std::move(row));
@@ -61,7 +63,8 @@ void add_ride(Table& table, const std::string& name, const Motion& motion,
 
 std::string friction_lines(const Track& track) {
   const std::optional<Angle> stall_angle = stall_angle_of(track);
-  std::string text = labelled("Stalls from", stall_text(track, stall_angle));
+  // Nothing is known of the impact of what flies over the start.
+  std::string text = lands(track.motion) ? labelled("Stalls from", stall_text(track, stall_angle)) : "";
   if (track.range.empty()) return text;
   Table table = rides_table("Friction");
   for (const LevelRide& ride : track.rides()) {

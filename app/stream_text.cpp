@@ -6,6 +6,7 @@
 #include "glissade/trades/chute/stream.hpp"
 
 #include "app/console.hpp"
+#include "app/law_text.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
 
@@ -30,6 +31,16 @@ std::string depth_text(const Design& design, const Motion& motion) {
           " at most with what the side walls add, " + length_text(facts.equivalent_friction.arc_length) +
           " down the track";
   return text;
+}
+
+/// A stream at another friction, and how it ends if not at the finish.
+std::string range_ride_text(const Motion& motion) {
+  if (!enters(motion)) return "none: it " + emphasised(std::string(ride_status(motion)), Emphasis::bad);
+  const StreamFacts facts = stream_facts(motion).value();
+  const std::string deep = length_text(facts.deepest.value) + " deep at most, ";
+  if (facts.exit_depth) return deep + length_text(*facts.exit_depth) + " at the finish";
+  const std::string how = motion.stall() ? "stalls" : motion.lift_off() ? "leaves the track" : "chokes";
+  return deep + emphasised(how, Emphasis::bad) + " after " + length_text(motion.distance());
 }
 
 std::string wear_lines(const Design& design, const Track& track) {
@@ -72,7 +83,7 @@ std::string impact_text(const Landing& landing, const Impact& impact, const char
            rounded_text(100.0 * impact.speed_ratio, 3) + " % of that; presses with " +
            rounded_text(impact.pressure / 1e3, 3) + " kPa";
   }
-  return text + "\n" + emphasised("stalls", Emphasis::bad) +
+  return text + "\n" + emphasised("stands", Emphasis::bad) +
          " where it lands: friction takes all of its speed";
 }
 
@@ -99,8 +110,10 @@ std::string hood_lines(const Design& design, const Track& track) {
     text += "\nover the range of friction it comes down " + length_text(-*spread.lowest, 2) + " before to " +
             length_text(*spread.highest, 2) + " behind the start";
   }
-  text += "\n" + quantity_text(transfer_time(design, track.motion), Dimension::time) +
-          " from the pulley to the finish";
+  if (track.motion.arrived() && enters(track.motion)) {
+    text += "\n" + quantity_text(transfer_time(design, track.motion), Dimension::time) +
+            " from the pulley to the finish";
+  }
   return labelled("Hood", text);
 }
 
@@ -121,7 +134,7 @@ std::string feed_lines(const Design& design, const Track& track) {
 }
 
 std::string discharge_lines(const Design& design, const Track& track) {
-  if (!design.discharge || !track.motion.arrived() || !lands(track.motion)) return "";
+  if (!design.discharge || !track.motion.arrived() || !enters(track.motion)) return "";
   const BeltLanding landing = belt_landing(design, track.motion);
   return labelled("Discharge",
                   "lands with " + speed_text(landing.speed_along) + " along the belt, " +
@@ -138,7 +151,7 @@ std::string discharge_lines(const Design& design, const Track& track) {
 
 std::string stream_lines(const Design& given, const Track& track) {
   const Design design = as_solved(given, track);
-  if (!lands(track.motion)) return feed_lines(design, track) + hood_lines(design, track);
+  if (!enters(track.motion)) return feed_lines(design, track) + hood_lines(design, track);
   std::string text = depth_text(design, track.motion);
   const auto most = choking_mass_flow(track.centerline, track.motion.body(), design.gravity);
   if (most && *most == 0.0) {
@@ -149,12 +162,8 @@ std::string stream_lines(const Design& given, const Track& track) {
   } else {
     text += "\nchokes at no flow below a thousand times its own";
   }
-  for (const RangeRide& ride : track.range) {
-    const StreamFacts facts = stream_facts(ride.motion).value();
-    text += "\nat " + std::string(to_text(ride.level)) + " friction " + length_text(facts.deepest.value) +
-            " deep at most" +
-            (facts.exit_depth ? ", " + length_text(*facts.exit_depth) + " at the finish" : ", chokes");
-  }
+  for (const RangeRide& ride : track.range)
+    text += "\nat " + std::string(to_text(ride.level)) + " friction " + range_ride_text(ride.motion);
   return labelled("Stream", text) + wear_lines(design, track) + feed_lines(design, track) +
          hood_lines(design, track) + discharge_lines(design, track);
 }

@@ -112,7 +112,7 @@ std::string comparison_lines(const Design& design, const Track& track) {
 
 std::string ride_lines(const Design& design, const Track& track) {
   const Motion& motion = track.motion;
-  if (!lands(motion)) {
+  if (!enters(motion)) {
     return labelled("Ride", "none: the feed " + emphasised(std::string(ride_status(motion)), Emphasis::bad));
   }
   if (motion.arrived()) {
@@ -143,11 +143,12 @@ double without_rounding(double load) {
 }
 
 std::string load_lines(const Motion& motion) {
+  if (!enters(motion)) return "";
   const MotionState highest = motion.highest_load();
   const std::string most =
       std::isinf(highest.normal_load) ? "unbounded, " : load_text(highest.normal_load) + " at most, ";
-  return most + length_text(highest.arc_length) + " down the track\n" +
-         load_text(motion.lowest_load().normal_load) + " at least";
+  return labelled("Normal load", most + length_text(highest.arc_length) + " down the track\n" +
+                                     load_text(motion.lowest_load().normal_load) + " at least");
 }
 
 std::string radius_text(const Track& track) {
@@ -303,9 +304,8 @@ std::string track_summary(const Design& design, const Track& track) {
   return emphasised(heading, Emphasis::heading) + "\n  " + task_line(design, track.endpoints) + "\n\n" +
          labelled("Centerline", kind_text(design, track)) + ride_lines(design, track) +
          labelled("Slope angle", slope_text(track)) +
-         labelled("Arc length", length_text(track.centerline->length())) +
-         labelled("Normal load", load_lines(track.motion)) + law_lines(design, track) +
-         labelled("Smallest radius", radius_text(track)) + friction_lines(track) +
+         labelled("Arc length", length_text(track.centerline->length())) + load_lines(track.motion) +
+         law_lines(design, track) + labelled("Smallest radius", radius_text(track)) + friction_lines(track) +
          limits_lines(design, track) + probes_lines(design, track) + gates_lines(track) +
          rules_lines(judge_rules(design, track));
 }

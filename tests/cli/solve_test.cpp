@@ -257,6 +257,43 @@ TEST_CASE("a body that stalls is reported with the place and exit code 3") {
                                  Contains("less than the friction angle"));
 }
 
+TEST_CASE("the summary tells how a stream ends at each friction") {
+  const TempDir place;
+  put_bytes(
+      place / "crest.yaml",
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 9 m}}\n"
+      "body: {friction_angle: {low: 15 deg, nominal: 25 deg, high: 30 deg}, entry_speed: 2 m/s}\n"
+      "stream: {mass_flow: 100 t/h, bulk_density: 800 kg/m^3}\n"
+      "centerline: {kind: segments, entry_slope_angle: 40 deg, segments: [{length: 2 m}, {length: 0.5 m, "
+      "radius: -3 m}]}\n"
+      "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 5 mm}\n");
+  const Outcome lifts = glissade_run({"solve", (place / "crest.yaml").string()});
+  CHECK(lifts.exit_code == 3);
+  CHECK_THAT(lifts.output, Contains("at low friction") &&
+                               Contains("deep at most, leaves the track after 2.") &&
+                               !Contains("deep at most, chokes"));
+  put_bytes(place / "fed.yaml",
+            "glissade: 1\n"
+            "track: {start: {x: 0 m, z: 4 m}, finish: {x: 2 m, z: 1.5 m}}\n"
+            "body: {friction_angle: {low: 25 deg, nominal: 35 deg, high: 52 deg}}\n"
+            "feed: {kind: belt, belt_speed: 0.3 m/s, pulley_radius: 300 mm, drop: 1 m}\n"
+            "stream: {mass_flow: 100 t/h, bulk_density: 1600 kg/m^3}\n"
+            "centerline: {kind: straight}\n"
+            "cross_section: {kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 8 mm}\n");
+  const Outcome stands = glissade_run({"solve", (place / "fed.yaml").string()});
+  CHECK(stands.exit_code == 3);
+  CHECK_THAT(stands.output, Contains("at high friction none: it stands where it lands") &&
+                                !Contains("km deep") && !Contains("e-09"));
+  CHECK_THAT(stands.errors,
+             Contains("the feed stands where it lands") && !Contains("entry_speed") && !Contains("e-09"));
+  const Outcome flies = glissade_run(
+      {"solve", (place / "fed.yaml").string(), "--set", "feed.drop=0.05m", "--set", "feed.belt_speed=3m/s"});
+  CHECK(flies.exit_code == 3);
+  CHECK_THAT(flies.output, Contains("none: the feed flies over the start") && !Contains("Stalls from") &&
+                               !Contains("never stalls") && !Contains("Normal load"));
+}
+
 TEST_CASE("--set replaces a value of the design file") {
   const Outcome outcome =
       glissade_run({"solve", shipped("grain_chute"), "--set", "body.friction_angle=19deg", "--json"});
