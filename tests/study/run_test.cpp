@@ -120,6 +120,36 @@ TEST_CASE("a frozen track stalls where a track of its own would arrive") {
         Status::stalled);  // 26 deg rubs more than the chord falls, but this track begins steeply
 }
 
+TEST_CASE("a row says how a stream or a feed does not arrive, in the words of a single ride") {
+  const std::string design =
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 4 m}, finish: {x: 2 m, z: 1 m}}\n"
+      "body: {friction_angle: {low: 20 deg, nominal: 24 deg, high: 28 deg}}\n"
+      "feed: {kind: belt, belt_speed: 2 m/s, pulley_radius: 400 mm, drop: 500 mm}\n"
+      "stream: {mass_flow: 300 t/h, bulk_density: 1600 kg/m^3}\n"
+      "centerline: {kind: straight}\n"
+      "cross_section: {kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 8 mm}\n";
+  const auto row_of = [&](const std::string& values) {
+    const TempDir place;
+    Study study = study_of({vary(values)}, design);
+    study.quantities = quantities_of;
+    (void)run(study, {.directory = place.path()});
+    return rows_of(place.path()).at(0);
+  };
+  const Row arrives = row_of("stream.mass_flow=300t/h");
+  CHECK(arrives.status == Status::arrived);
+  const Row chokes = row_of("stream.mass_flow=12000t/h");
+  CHECK(word(chokes.status) == "choked");
+  CHECK_THAT(chokes.reason, Contains("the stream chokes"));
+  const Row flies = row_of("feed.drop=50mm");
+  CHECK(word(flies.status) == "flies over the start");
+  CHECK(flies.quantities.size() == arrives.quantities.size());
+  // Stands at the highest friction alone: the ride that fails has the word, not the nominal one.
+  const Row stands = row_of("body.friction_angle.high=89.5deg");
+  CHECK(word(stands.status) == "stands where it lands");
+  for (const Status status : kStatuses) CHECK(status_named(word(status)) == status);
+}
+
 TEST_CASE("what shapes a frozen track cannot vary") {
   const TempDir place;
   Study study = study_of({vary("track.finish.z=0m,1m")});

@@ -16,6 +16,27 @@ namespace {
 /// Far beyond what any search takes: a row must not depend on how fast the machine is.
 constexpr double kNoTimeBudget = 1e9;
 
+/// Of a ride that does not arrive.
+Status status_of(RideEnd end) {
+  switch (end) {
+    case RideEnd::arrived:
+      return Status::arrived;
+    case RideEnd::stalled:
+      return Status::stalled;
+    case RideEnd::lifted_off:
+      return Status::left_track;
+    case RideEnd::does_not_fit:
+      return Status::does_not_fit;
+    case RideEnd::choked:
+      return Status::choked;
+    case RideEnd::flies_over_start:
+      return Status::flies_over;
+    case RideEnd::stands_at_start:
+      return Status::stands;
+  }
+  throw InternalError({"", "a ride that ended in no known way", "", ""});
+}
+
 std::string one_line(const Issue& issue) {
   std::string text = issue.what;
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -150,7 +171,7 @@ Evaluation::Outcome Evaluation::outcome(const std::vector<Override>& values) con
     outcome.status = Status::arrived;
     outcome.quantities = study_.quantities(design, track);
     if (const auto problem = ride_problem(design, track)) {
-      outcome.status = track.motion.stall() ? Status::stalled : Status::left_track;
+      outcome.status = status_of(ride_end(*ride_that_fails(track).value().motion));
       outcome.reason = one_line(*problem);
     } else if (const auto broken = limits_problem(design, track)) {
       outcome.status = Status::limits_broken;

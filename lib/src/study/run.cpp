@@ -67,6 +67,14 @@ std::string_view word(Status status) {
       return "stalled";
     case Status::left_track:
       return "left the track";
+    case Status::does_not_fit:
+      return to_text(RideEnd::does_not_fit);
+    case Status::choked:
+      return to_text(RideEnd::choked);
+    case Status::flies_over:
+      return to_text(RideEnd::flies_over_start);
+    case Status::stands:
+      return to_text(RideEnd::stands_at_start);
     case Status::limits_broken:
       return "limits broken";
     case Status::infeasible:

@@ -24,17 +24,23 @@ enum class Status {
   arrived,        ///< the body arrives, every limit is kept
   stalled,        ///< it stops before the finish
   left_track,     ///< it lifts off
+  does_not_fit,   ///< into a valley
+  choked,         ///< a stream
+  flies_over,     ///< a feed, the start of its track
+  stands,         ///< a feed, where it lands
   limits_broken,  ///< it arrives, but a limit of the design does not hold on this track
   infeasible,     ///< no track reaches the finish, or keeps the limits
   none_found,     ///< the search ended without a track
   invalid         ///< the values do not make a design
 };
 
-inline constexpr std::array<Status, 7> kStatuses = {
-    Status::arrived,    Status::stalled,    Status::left_track, Status::limits_broken,
+inline constexpr std::array<Status, 11> kStatuses = {
+    Status::arrived,    Status::stalled,    Status::left_track, Status::does_not_fit,
+    Status::choked,     Status::flies_over, Status::stands,     Status::limits_broken,
     Status::infeasible, Status::none_found, Status::invalid};
 
-/// @return the word of a row: "arrived", "stalled", "left the track", "limits broken", "infeasible", "none found",
+/// @return the word of a row: "arrived", "stalled", "left the track", "does not fit", "choked", "flies over the start", "stands where
+///         it lands", "limits broken", "infeasible", "none found",
 ///         "invalid"
 [[nodiscard]] std::string_view word(Status status);
 /// @return none if the word names no status
