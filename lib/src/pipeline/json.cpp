@@ -175,6 +175,25 @@ Json cases_json(const Design& design, const CenterlinePtr& centerline) {
   return list;
 }
 
+/// What a design adds to the keys of its track, of one that has none; tests/pipeline/json_keys_test.cpp holds that it is all.
+void add_keys_of_design(Json& json, const Design& design) {
+  Design track = design;
+  track.hood.reset();  // the law on the track does not ask for it, and it may be still to be chosen
+  if (body_of(track).law) {
+    json["inertia_factor"] = nullptr;
+    json["law_end"] = nullptr;
+    json["law"] = Json::array();
+  }
+  if (design.feed) json["feed"] = nullptr;
+  if (design.hood) json["hood"] = nullptr;
+  if (design.discharge) json["discharge"] = nullptr;
+  if (!design.stream) return;
+  json["stream"] = nullptr;
+  json["wear"] = nullptr;
+  json["verdicts"] = Json::array();
+  json["cases"] = Json::array();
+}
+
 Json conflict_document(const Design& design, const OptimizeReport& report) {
   Json json = task_document(design, endpoints_of(design));
   json["centerline"] = word(design.centerline.kind);
@@ -199,6 +218,7 @@ Json conflict_document(const Design& design, const OptimizeReport& report) {
   json["probes"] = Json::array();
   json["gates"] = nullptr;
   json["rules"] = Json::array();
+  add_keys_of_design(json, design);
   json["warnings"] = Json::array();
   return json;
 }
