@@ -91,3 +91,38 @@ TEST_CASE("rows without a value are left out") {
   CHECK(influence.rank_correlation == Approx(1.0));
   CHECK_FALSE(influence.first_order.has_value());  // too few
 }
+
+TEST_CASE("rows that are left out make inputs dependent where it takes several inputs to leave one out") {
+  for (const Sampling sampling : {Sampling::random, Sampling::latin_hypercube, Sampling::sobol}) {
+    CAPTURE(word(sampling));
+    constexpr std::uint64_t kRows = 5000;
+    const UnitCube cube{sampling, kRows, 3, 7};
+    std::vector<std::vector<double>> inputs(3);
+    for (std::uint64_t row = 0; row < kRows; ++row) {
+      const std::vector<double> point = cube.at(row);
+      for (std::size_t d = 0; d < 3; ++d) inputs[d].push_back(point[d]);
+    }
+    const auto used = [&](auto keeps) {
+      std::vector<bool> rows;
+      for (std::uint64_t row = 0; row < kRows; ++row) {
+        rows.push_back(keeps(inputs[0][row], inputs[1][row], inputs[2][row]));
+      }
+      return rows;
+    };
+    using Verdicts = std::vector<bool>;
+    CHECK(dependent_inputs(inputs, used([](double, double, double) { return true; })) ==
+          Verdicts{false, false, false});
+    // A bound of one input each, even of all three, leaves what is left independent.
+    CHECK(dependent_inputs(inputs, used([](double a, double, double) { return a < 0.83; })) ==
+          Verdicts{false, false, false});
+    CHECK(dependent_inputs(inputs, used([](double a, double b, double c) {
+                             return a < 0.83 && b > 0.1 && c < 0.57;
+                           })) == Verdicts{false, false, false});
+    // A corner is not, nor a hole that no correlation shows.
+    CHECK(dependent_inputs(inputs, used([](double a, double b, double) { return a + b < 1.6; })) ==
+          Verdicts{true, true, false});
+    CHECK(dependent_inputs(inputs, used([](double, double b, double c) {
+                             return std::hypot(b - 0.5, c - 0.5) > 0.2;
+                           })) == Verdicts{false, true, true});
+  }
+}

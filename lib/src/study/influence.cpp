@@ -146,7 +146,91 @@ void add_first_order(std::vector<Pair> pairs, Influence& influence) {
   influence.first_order_error = count > 1.0 ? std::sqrt((count - 1.0) / count * squares) : 0.0;
 }
 
+/// Rows and used rows in classes of two inputs.
+struct PairCounts {
+  std::size_t classes = 0;
+  std::vector<double> all;
+  std::vector<double> used;
+
+  PairCounts(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b,
+             const std::vector<bool>& use, std::size_t count)
+      : classes(count), all(count * count, 0.0), used(count * count, 0.0) {
+    for (std::size_t row = 0; row < a.size(); ++row) {
+      const std::size_t cell = a[row] * classes + b[row];
+      all[cell] += 1.0;
+      if (use[row]) used[cell] += 1.0;
+    }
+  }
+};
+
+/// The used rows of each cell if their share were a factor of one input times a factor of the other: the factors that keep
+/// the sums over both, by proportional fitting (Deming & Stephan 1940).
+std::vector<double> fitted_product(const PairCounts& counts) {
+  constexpr int kRounds = 200;  // budget: of up to 128 sums each
+  const std::size_t n = counts.classes;
+  std::vector<double> fitted = counts.all;
+  for (int round = 0; round < kRounds; ++round) {
+    for (const bool rows : {true, false}) {
+      for (std::size_t i = 0; i < n; ++i) {
+        double is = 0.0;
+        double wanted = 0.0;
+        for (std::size_t j = 0; j < n; ++j) {
+          const std::size_t cell = rows ? i * n + j : j * n + i;
+          is += fitted[cell];
+          wanted += counts.used[cell];
+        }
+        for (std::size_t j = 0; is > 0.0 && j < n; ++j) fitted[rows ? i * n + j : j * n + i] *= wanted / is;
+      }
+    }
+  }
+  return fitted;
+}
+
+bool are_dependent(const PairCounts& counts) {
+  const std::vector<double> fitted = fitted_product(counts);
+  double chi_squared = 0.0;
+  for (std::size_t cell = 0; cell < fitted.size(); ++cell) {
+    if (counts.all[cell] == 0.0) continue;
+    const double miss = counts.used[cell] - fitted[cell];
+    // Binomial; where all rows or none are used a single row says nothing.
+    const double variance = std::max(fitted[cell] * (1.0 - fitted[cell] / counts.all[cell]), 1.0);
+    chi_squared += miss * miss / variance;
+  }
+  const auto freedom = static_cast<double>((counts.classes - 1) * (counts.classes - 1));
+  // The cube root of a chi-squared over its degrees is nearly normal (Wilson & Hilferty 1931).
+  const double spread = 2.0 / (9.0 * freedom);
+  constexpr double kSurprise =
+      4.0;  // standard errors, taste: one of 30 000 pairs is told dependent by chance
+  return (math::cbrt(chi_squared / freedom) - (1.0 - spread)) / std::sqrt(spread) > kSurprise;
+}
+
 }  // namespace
+
+std::vector<bool> dependent_inputs(const std::vector<std::vector<double>>& inputs,
+                                   const std::vector<bool>& used) {
+  std::vector<bool> dependent(inputs.size(), false);
+  if (std::find(used.begin(), used.end(), false) == used.end()) return dependent;
+  constexpr double kRowsOfCell = 10.0;  // theory: chi-squared wants some 5 to 10 in a cell
+  constexpr double kMostClasses = 8.0;  // taste
+  const auto classes = static_cast<std::size_t>(
+      std::clamp(std::floor(std::sqrt(static_cast<double>(used.size()) / kRowsOfCell)), 2.0, kMostClasses));
+  std::vector<std::vector<std::size_t>> class_of;
+  for (const std::vector<double>& input : inputs) {
+    class_of.emplace_back();
+    for (const double rank : ranks_of(input)) {
+      class_of.back().push_back(static_cast<std::size_t>(rank * static_cast<double>(classes) /
+                                                         (static_cast<double>(used.size()) + 1.0)));
+    }
+  }
+  for (std::size_t a = 0; a < inputs.size(); ++a) {
+    for (std::size_t b = a + 1; b < inputs.size(); ++b) {
+      if (!are_dependent(PairCounts(class_of[a], class_of[b], used, classes))) continue;
+      dependent[a] = true;
+      dependent[b] = true;
+    }
+  }
+  return dependent;
+}
 
 Influence influence_of(const std::vector<double>& input, const std::vector<double>& quantity,
                        bool independent) {

@@ -4,14 +4,19 @@
 
 #include "glissade/study/summary.hpp"
 
+#include "glissade/core/quantity.hpp"
+
 #include "study/influence.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
+#include <string>
 #include <utility>
+#include <variant>
 
 namespace glissade::study {
 namespace {
@@ -79,6 +84,16 @@ ColumnFacts facts_of(std::string name, const Stream& stream, const Kept& kept) {
   return facts;
 }
 
+/// @return the SI value of one unit, in whatever dimension it is one; 1 of an empty text
+double si_of(const std::string& unit) {
+  constexpr int kLast = static_cast<int>(Dimension::power_per_area);
+  for (int dimension = 0; dimension <= kLast && !unit.empty(); ++dimension) {
+    const auto read = read_quantity("1 " + unit, static_cast<Dimension>(dimension), unit);
+    if (const double* const value = std::get_if<double>(&read)) return *value;
+  }
+  return 1.0;
+}
+
 /// What is kept of all rows while they are read for the first time.
 class FirstReading {
  public:
@@ -88,6 +103,9 @@ class FirstReading {
     }
     inputs_.resize(numeric_.size());
     kept_inputs_.resize(numeric_.size());
+    for (const std::size_t column : numeric_) scales_.push_back(si_of(results.units()[column]));
+    words_.resize(results.inputs().size() - numeric_.size());
+    kept_words_.resize(words_.size());
     quantities_.resize(results.quantities().size());
     kept_quantities_.resize(results.quantities().size());
   }
@@ -103,6 +121,7 @@ class FirstReading {
       inputs_[column].add(value);
       if (kept) kept_inputs_[column].push_back(value);
     }
+    if (kept) keep_words(row);
     for (std::size_t column = 0; column < quantities_.size(); ++column) {
       const std::optional<double>& value = row.quantities[column];
       if (value) quantities_[column].add(*value);
@@ -123,8 +142,11 @@ class FirstReading {
     for (std::size_t input = 0; input < numeric_.size(); ++input) {
       if (!summary_.inputs[input].varies()) continue;
       for (const std::size_t quantity : summary_.varying) {
-        Influence influence = influence_of(kept_inputs_[input], kept_quantities_[quantity],
-                                           results_.independent()[numeric_[input]]);
+        const bool drawn_alone = results_.independent()[numeric_[input]];
+        const bool dependent = drawn_alone && dependent_among(kept_quantities_[quantity])[input];
+        Influence influence =
+            influence_of(kept_inputs_[input], kept_quantities_[quantity], drawn_alone && !dependent);
+        influence.dependent_here = dependent;
         influence.input = input;
         influence.quantity = quantity;
         summary_.influences.push_back(influence);
@@ -151,18 +173,46 @@ class FirstReading {
   }
 
  private:
-  /// Echoes of an input, such as the friction angle beside body.friction_angle.
+  /// Inputs that are words, each word by the number of its first row.
+  void keep_words(const Row& row) {
+    std::size_t place = 0;
+    for (std::size_t column = 0; column < row.inputs.size() && place < words_.size(); ++column) {
+      if (results_.numeric()[column]) continue;
+      const auto known = words_[place].try_emplace(row.inputs[column], words_[place].size()).first;
+      kept_words_[place++].push_back(static_cast<double>(known->second));
+    }
+  }
+
+  /// Of the numeric inputs, whether another makes a difference to which of their values a quantity is told of.
+  [[nodiscard]] const std::vector<bool>& dependent_among(const Kept& quantity) {
+    std::vector<bool> used(quantity.size());
+    std::transform(quantity.begin(), quantity.end(), used.begin(),
+                   [](double value) { return !std::isnan(value); });
+    const auto known = dependent_.find(used);
+    if (known != dependent_.end()) return known->second;
+    std::vector<Kept> inputs = kept_inputs_;
+    inputs.insert(inputs.end(), kept_words_.begin(), kept_words_.end());
+    std::vector<bool> dependent = dependent_inputs(inputs, used);
+    return dependent_.emplace(std::move(used), std::move(dependent)).first->second;
+  }
+
+  /// Echoes of an input, such as the friction angle beside body.friction_angle, or the mass flow in kg/s beside one in t/h.
   [[nodiscard]] bool is_an_input(std::size_t column) const {
-    return std::any_of(kept_inputs_.begin(), kept_inputs_.end(), [&](const Kept& input) {
+    const auto echoes = [&](const Kept& input, double scale) {
+      constexpr double kRounding = 1e-12;  // rounding, of the value
       bool any = false;
       for (std::size_t row = 0; row < input.size(); ++row) {
         const double value = kept_quantities_[column][row];
         if (std::isnan(value)) continue;
-        if (std::fabs(value - input[row]) > 1e-12 * std::fabs(value)) return false;
+        if (std::fabs(value - scale * input[row]) > kRounding * std::fabs(value)) return false;
         any = true;
       }
       return any;
-    });
+    };
+    for (std::size_t input = 0; input < kept_inputs_.size(); ++input) {
+      if (echoes(kept_inputs_[input], 1.0) || echoes(kept_inputs_[input], scales_[input])) return true;
+    }
+    return false;
   }
 
   const Results& results_;
@@ -172,6 +222,10 @@ class FirstReading {
   std::vector<Stream> quantities_;
   std::vector<Kept> kept_inputs_;
   std::vector<Kept> kept_quantities_;
+  std::vector<double> scales_;  ///< SI of one unit of an input
+  std::vector<std::map<std::string, std::size_t>> words_;
+  std::vector<Kept> kept_words_;
+  std::map<std::vector<bool>, std::vector<bool>> dependent_;  ///< by the rows that are used
 };
 
 void keep_best(std::vector<BestPoint>& best, const Row& row, double value, bool low) {

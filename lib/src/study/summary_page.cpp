@@ -113,7 +113,8 @@ Json influences_json(const Summary& summary) {
                       {"rank", rounded(influence.rank_correlation)},
                       {"rankError", rounded(influence.rank_correlation_error)},
                       {"firstOrder", influence.first_order ? rounded(*influence.first_order) : Json(nullptr)},
-                      {"firstOrderError", rounded(influence.first_order_error)}});
+                      {"firstOrderError", rounded(influence.first_order_error)},
+                      {"dependent", influence.dependent_here}});
     }
   }
   return json;

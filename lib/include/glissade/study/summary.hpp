@@ -39,8 +39,11 @@ struct Influence {
   double rank_correlation = 0.0;        ///< Spearman's, -1 to 1
   double rank_correlation_error = 0.0;  ///< its standard error
   /// First-order Sobol index: the share of the quantity's variance that this input alone explains; from an analysis of
-  /// variance over classes of the input, corrected for their finite size. None where inputs are not independent.
+  /// variance over classes of the input, corrected for their finite size. None where inputs are not independent: as the
+  /// study draws them, or among the points that have the quantity.
   std::optional<double> first_order;
+  /// Whether the input is independent of the others as the study draws it, but not among the points that have the quantity.
+  bool dependent_here = false;
   double first_order_error = 0.0;  ///< its standard error, by a delete-a-group jackknife
 };
 

@@ -25,9 +25,14 @@ function shown(value) {
 }
 
 function unitOf(name) {
-  const units = [["_m_per_s2", "m/s²"], ["_m_per_s", "m/s"], ["_per_m", "1/m"], ["_deg", "deg"], ["_j_per_kg", "J/kg"], ["_percent", "%"],
+  const input = data.inputKeys.find(({ column, unit }) => column === name && unit);
+  if (input) return { words: input.key.replaceAll("_", " "), unit: input.unit.replaceAll("^2", "²").replaceAll("^3", "³") };
+  const units = [["_kg_per_m3", "kg/m³"], ["_kg_per_s", "kg/s"], ["_w_per_m2", "W/m²"], ["_m2_per_s2", "m²/s²"], ["_m2_per_s", "m²/s"],
+    ["_per_m2", "1/m²"], ["_per_s", "1/s"], ["_pa", "Pa"], ["_m3", "m³"], ["_m2", "m²"], ["_mm_per_1000_h", "mm/1000 h"], ["_mm_per_mt", "mm/Mt"], ["_h", "h"],
+    ["_m_per_s2", "m/s²"], ["_m_per_s", "m/s"], ["_per_m", "1/m"], ["_deg", "deg"], ["_j_per_kg", "J/kg"], ["_percent", "%"],
     ["_mm", "mm"], ["_kg", "kg"], ["_m", "m"], ["_s", "s"]];
-  const found = units.find(([end]) => name.endsWith(end));
+  // Of "_m_per_s" and "_per_s" the longer one.
+  const found = units.filter(([end]) => name.endsWith(end)).sort((a, b) => b[0].length - a[0].length)[0];
   return found ? { words: name.slice(0, -found[0].length).replaceAll("_", " "), unit: found[1] } : { words: name.replaceAll("_", " "), unit: "" };
 }
 
@@ -208,6 +213,7 @@ function influenceSection() {
     const found = data.influences.find((one) => one.quantity === quantity && one.input === input);
     if (!found) return "–";
     const rank = `${found.rank.toFixed(2)} ± ${found.rankError.toFixed(2)}`;
+    if (found.dependent) return `${rank}; *`;
     return found.firstOrder === null ? rank : `${rank}; ${(100 * found.firstOrder).toFixed(0)} ± ${Math.ceil(100 * found.firstOrderError)} %`;
   };
   const table = make("table", { class: "sheet" },
@@ -215,6 +221,8 @@ function influenceSection() {
     make("tbody", {}, data.quantities.map((facts, place) => make("tr", {}, make("td", {}, label(facts.name)), inputs.map((input) => make("td", {}, cell(place, input)))))));
   return section("What moves what", make("p", { class: "hint" },
     "Rank correlation (-1 to 1), each ± its standard error; then, where the input is independent of the others, the share of the variance that it explains alone (first-order Sobol index)."),
+  data.influences.some(({ dependent }) => dependent) ? make("p", { class: "hint" },
+    "* The values of this input are drawn independently of the others', but among the points that have this figure they no longer are: which points lack it depends on several inputs together. No share of the variance is told there, and the rank correlation may be another input's.") : null,
   make("div", { class: "wide" }, table));
 }
 
