@@ -119,10 +119,15 @@ std::vector<StreamFlight> stream_flights(const Design& design, const Motion& mot
 }
 
 std::vector<StreamFlight> stream_flights(const Design& design, const Track& track) {
+  return stream_flights(design, track, track.motion);
+}
+
+std::vector<StreamFlight> stream_flights(const Design& design, const Track& track, const Motion& motion) {
   if (!design.stream) return {};
-  if (!design.hood) return stream_flights(design, track.motion, nullptr, nullptr);
-  const HoodPassage hood = hood_passage(design, track.motion.body());
-  return stream_flights(design, track.motion, &hood, &hood);
+  if (!design.hood) return stream_flights(design, motion, nullptr, nullptr);
+  const HoodPassage nominal = hood_passage(design, track.motion.body());
+  const HoodPassage hood = hood_passage(design, motion.body());
+  return stream_flights(design, motion, &nominal, &hood);
 }
 
 std::vector<Vec2> hood_line(const Design& design, const Track& track) {

@@ -25,35 +25,59 @@ Verdict verdict(bool holds) {
   return holds ? Verdict::pass : Verdict::fail;
 }
 
-std::string g_text(double load) {
+ReportPiece words(std::string text) {
+  ReportPiece piece;
+  piece.words = std::move(text);
+  return piece;
+}
+
+ReportPiece metres(double value, int digits = 4) {
+  return {"", value, "m", digits};
+}
+
+ReportPiece load(double value) {
   // The cosine of a right angle is not quite 0 in a computer.
-  const double in_g = load / kStandardGravity;
-  return rounded_text(std::fabs(in_g) < 1e-12 ? 0.0 : in_g, 4) + " g";
+  constexpr double kRounding = 1e-12;  // rounding, of g
+  return {"", std::fabs(value) < kRounding * kStandardGravity ? 0.0 : value, "m/s^2", 4};
 }
 
-ReportCheck arrival(const Track& track) {
-  const Motion& motion = track.motion;
-  return {"The body arrives", verdict(motion.arrived()),
-          "rode " + length_text(motion.distance()) + " of " + length_text(track.centerline->length())};
+std::string text_of(const ReportPiece& piece) {
+  if (!piece.value) return piece.words;
+  if (piece.unit == "m") return length_text(*piece.value, piece.digits);
+  return rounded_text(*piece.value / kStandardGravity, piece.digits) + " g";
 }
 
-ReportCheck contact(const Track& track) {
-  const MotionState lowest = track.motion.lowest_load();
-  return {"It never leaves the track", verdict(!track.motion.lift_off() && track.motion.arrived()),
-          "lowest normal load " + g_text(lowest.normal_load) + " at s = " + length_text(lowest.arc_length)};
+/// A check whose values follow the units that a reader chooses.
+ReportCheck check_of(std::string name, Verdict verdict, std::vector<ReportPiece> pieces) {
+  ReportCheck check{std::move(name), verdict, ""};
+  for (const ReportPiece& piece : pieces) check.detail += text_of(piece);
+  check.pieces = std::move(pieces);
+  return check;
+}
+
+ReportCheck arrival(const Motion& motion) {
+  return check_of(
+      "The body arrives", verdict(motion.arrived()),
+      {words("rode "), metres(motion.distance()), words(" of "), metres(motion.centerline().length())});
+}
+
+ReportCheck contact(const Motion& motion) {
+  const MotionState lowest = motion.lowest_load();
+  return check_of(
+      "It never leaves the track", verdict(!motion.lift_off() && motion.arrived()),
+      {words("lowest normal load "), load(lowest.normal_load), words(" at s = "), metres(lowest.arc_length)});
 }
 
 /// Kinetic energy and losses at the finish against the height lost.
-ReportCheck energy(const Track& track, double gravity) {
-  const Motion& motion = track.motion;
+ReportCheck energy(const Motion& motion, double gravity) {
+  const Centerline& centerline = motion.centerline();
   const MotionState end = motion.at(motion.distance());
   const LawPtr& law = motion.body().law;
   const double inertia = law ? law->inertia() : 1.0;
-  const double rise =
-      law ? law->centre_height() * (math::cos(track.centerline->slope_angle(motion.distance())) -
-                                    math::cos(track.centerline->slope_angle(0.0)))
-          : 0.0;
-  const double drop = track.centerline->at(motion.distance()).drop - rise;
+  const double rise = law ? law->centre_height() * (math::cos(centerline.slope_angle(motion.distance())) -
+                                                    math::cos(centerline.slope_angle(0.0)))
+                          : 0.0;
+  const double drop = centerline.at(motion.distance()).drop - rise;
   const double entry = motion.body().entry_speed;
   const double given = gravity * drop + 0.5 * inertia * entry * entry;
   const double found = 0.5 * inertia * end.speed * end.speed + end.friction_loss + end.drag_loss;
@@ -81,23 +105,27 @@ ReportCheck optimality(const Track& track) {
 }
 
 /// What a law asks for without ending the ride: a ball that is not to slip.
-void add_law_checks(const Track& track, std::vector<ReportCheck>& checks) {
-  const std::vector<LawQuantity> quantities = track.motion.quantities();
+void add_law_checks(const Motion& motion, std::vector<ReportCheck>& checks) {
+  const std::vector<LawQuantity> quantities = motion.quantities();
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const LawQuantity& quantity = quantities[i];
     if (!quantity.verdict) continue;
-    const QuantityPeak peak = track.motion.highest(i);
+    const QuantityPeak peak = motion.highest(i);
     const std::string most = std::isinf(peak.value) ? "has no bound" : "is " + rounded_text(peak.value, 3);
-    const std::string text =
-        "the " + std::string(quantity.name) + " " + most + " at s = " + length_text(peak.arc_length);
-    const std::string name(quantity.verdict->check);
-    if (!quantity.highest) {
-      checks.push_back({name, Verdict::not_checked, text + "; the design does not say what there is"});
-    } else {
-      checks.push_back(
-          {name, verdict(!peak.beyond_from), text + ", there is " + rounded_text(*quantity.highest, 3)});
-    }
+    const std::string there = quantity.highest ? ", there is " + rounded_text(*quantity.highest, 3)
+                                               : "; the design does not say what there is";
+    checks.push_back(check_of(std::string(quantity.verdict->check),
+                              quantity.highest ? verdict(!peak.beyond_from) : Verdict::not_checked,
+                              {words("the " + std::string(quantity.name) + " " + most + " at s = "),
+                               metres(peak.arc_length), words(there)}));
   }
+}
+
+/// What is checked of a ride, whatever its friction.
+std::vector<ReportCheck> ride_checks(const Motion& motion, double gravity) {
+  std::vector<ReportCheck> checks = {arrival(motion), contact(motion), energy(motion, gravity)};
+  add_law_checks(motion, checks);
+  return checks;
 }
 
 ReportCheck watertight(const MeshFacts& facts, const Solid& solid) {
@@ -114,9 +142,9 @@ ReportCheck self_intersections(const MeshFacts& facts) {
 }
 
 ReportCheck deviation(const Design& design, double max_deviation) {
-  return {"The facets follow the track", verdict(max_deviation <= design.mesh.tolerance),
-          "largest deviation " + length_text(max_deviation, 3) + ", tolerance " +
-              length_text(design.mesh.tolerance, 3)};
+  return check_of("The facets follow the track", verdict(max_deviation <= design.mesh.tolerance),
+                  {words("largest deviation "), metres(max_deviation, 3), words(", tolerance "),
+                   metres(design.mesh.tolerance, 3)});
 }
 
 ReportCheck read_back(const std::vector<fs::path>& files) {
@@ -169,9 +197,13 @@ std::vector<Vec2> flight_to_belt(const Design& design, const Motion& motion) {
 }
 
 std::vector<ReportFlight> flights_of(const Design& design, const Track& track) {
+  return flights_of(design, track, track.motion);
+}
+
+std::vector<ReportFlight> flights_of(const Design& design, const Track& track, const Motion& motion) {
   const double height = track.placement.start().z;
   std::vector<ReportFlight> flights;
-  for (const StreamFlight& flight : stream_flights(design, track)) {
+  for (const StreamFlight& flight : stream_flights(design, track, motion)) {
     const char* name = flight.kind == FlightKind::feed        ? "the feed falls"
                        : flight.kind == FlightKind::from_hood ? "from the hood to the track"
                                                               : "the stream falls on the belt";
@@ -199,7 +231,10 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   if (build.swept != nullptr) {
     input.solid = {&build.swept->solid, &build.swept->facts, build.section, build.swept->max_deviation};
   }
-  for (const LevelRide& ride : track.rides()) input.rides.push_back({ride.level, ride.motion});
+  for (const LevelRide& ride : track.rides()) {
+    input.rides.push_back({ride.level, ride.motion, ride_checks(*ride.motion, design.gravity),
+                           flights_of(design, track, *ride.motion)});
+  }
   input.stall_angle = stall_angle_of(track);
   input.probes = probe_readings(design, track);
   input.warnings = warnings(design, track);
@@ -213,18 +248,17 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   for (const fs::path& file : build.files) {
     input.files.push_back({file.filename().string(), fs::file_size(file), sha256_of_file(file, build.stop)});
   }
-  input.checks = {arrival(track), contact(track), energy(track, design.gravity), optimality(track),
-                  limits(input.limits)};
+  input.checks = ride_checks(track.motion, design.gravity);
+  input.checks.push_back(optimality(track));
+  input.checks.back().of_nominal = true;
+  if (track.search) input.checks.push_back(search(design, *track.search));
+  input.checks.push_back(limits(input.limits));
   if (build.swept != nullptr) {
     input.checks.push_back(watertight(build.swept->facts, build.swept->solid));
     input.checks.push_back(self_intersections(build.swept->facts));
     input.checks.push_back(deviation(design, build.swept->max_deviation));
     input.checks.push_back(read_back(build.read_back_files));
   }
-  if (track.search) input.checks.insert(input.checks.begin() + 4, search(design, *track.search));
-  std::vector<ReportCheck> of_law;
-  add_law_checks(track, of_law);
-  input.checks.insert(input.checks.begin() + 3, of_law.begin(), of_law.end());
   return input;
 }
 

@@ -29,5 +29,8 @@ struct BuildForReport {
 /// The stream in the air and below its hood, as lines: x run from the start, y height of the site [m].
 /// @param design  solved
 [[nodiscard]] std::vector<ReportFlight> flights_of(const Design& design, const Track& track);
+/// The same of another ride of the track.
+[[nodiscard]] std::vector<ReportFlight> flights_of(const Design& design, const Track& track,
+                                                   const Motion& motion);
 
 }  // namespace glissade::pipeline

@@ -131,18 +131,6 @@ Json ride_columns(const Motion& motion, const std::vector<double>& stations) {
   return columns;
 }
 
-Json rides_of(const ReportInput& input) {
-  const std::vector<ReportRide> rides =
-      input.rides.empty() ? std::vector<ReportRide>{{FrictionLevel::nominal, input.motion}} : input.rides;
-  const std::vector<double> stations = ride_stations(*input.motion);
-  Json list = Json::array();
-  for (const ReportRide& ride : rides) {
-    list.push_back(ride_json(ride.level, *ride.motion, input.stall_angle));
-    list.back()["stations"] = ride_columns(*ride.motion, stations);
-  }
-  return list;
-}
-
 const char* word(Verdict verdict) {
   switch (verdict) {
     case Verdict::pass:
@@ -153,6 +141,64 @@ const char* word(Verdict verdict) {
       return "not-checked";
   }
   return "not-checked";
+}
+
+/// Null where a sentence has no values with units.
+Json pieces_of(const ReportCheck& check) {
+  if (check.pieces.empty()) return nullptr;
+  Json pieces = Json::array();
+  for (const ReportPiece& piece : check.pieces) {
+    if (piece.value) {
+      pieces.push_back({{"value", number(*piece.value)}, {"unit", piece.unit}, {"digits", piece.digits}});
+    } else {
+      pieces.push_back(piece.words);
+    }
+  }
+  return pieces;
+}
+
+Json checks_of(const std::vector<ReportCheck>& list) {
+  Json checks = Json::array();
+  for (const ReportCheck& check : list) {
+    checks.push_back({{"name", check.name},
+                      {"verdict", word(check.verdict)},
+                      {"detail", check.detail},
+                      {"detail_pieces", pieces_of(check)},
+                      {"of_nominal", check.of_nominal}});
+  }
+  return checks;
+}
+
+Json flights_of(const std::vector<ReportFlight>& flights) {
+  Json list = Json::array();
+  for (const ReportFlight& flight : flights) {
+    Json xs = Json::array();
+    Json zs = Json::array();
+    for (const Vec2& point : flight.points) {
+      xs.push_back(point.x);
+      zs.push_back(point.y);
+    }
+    list.push_back({{"name", flight.name}, {"x_m", std::move(xs)}, {"z_m", std::move(zs)}});
+  }
+  return list;
+}
+
+Json rides_of(const ReportInput& input) {
+  const std::vector<ReportRide> rides =
+      input.rides.empty()
+          ? std::vector<ReportRide>{{FrictionLevel::nominal, input.motion, input.checks, input.flights}}
+          : input.rides;
+  const std::vector<double> stations = ride_stations(*input.motion);
+  Json list = Json::array();
+  for (const ReportRide& ride : rides) {
+    list.push_back(ride_json(ride.level, *ride.motion, input.stall_angle));
+    // With a feed it follows from the friction.
+    list.back()["entry_speed_m_per_s"] = ride.motion->body().entry_speed;
+    list.back()["checks"] = checks_of(ride.checks);
+    list.back()["flights"] = flights_of(ride.flights);
+    list.back()["stations"] = ride_columns(*ride.motion, stations);
+  }
+  return list;
 }
 
 Json mesh_of(const ReportInput& input) {
@@ -189,14 +235,6 @@ Json limits_of(const ReportInput& input) {
     limits.push_back(std::move(row));
   }
   return limits;
-}
-
-Json checks_of(const ReportInput& input) {
-  Json checks = Json::array();
-  for (const ReportCheck& check : input.checks) {
-    checks.push_back({{"name", check.name}, {"verdict", word(check.verdict)}, {"detail", check.detail}});
-  }
-  return checks;
 }
 
 Json files_of(const ReportInput& input) {
@@ -261,20 +299,6 @@ Json fabrication_of(const ReportInput& input) {
   json["design_exit_speed_m_per_s"] = input.workshop->ride.design_exit_speed;
   json["view"] = parts_view_json(input);
   return json;
-}
-
-Json flights_of(const ReportInput& input) {
-  Json list = Json::array();
-  for (const ReportFlight& flight : input.flights) {
-    Json xs = Json::array();
-    Json zs = Json::array();
-    for (const Vec2& point : flight.points) {
-      xs.push_back(point.x);
-      zs.push_back(point.y);
-    }
-    list.push_back({{"name", flight.name}, {"x_m", std::move(xs)}, {"z_m", std::move(zs)}});
-  }
-  return list;
 }
 
 Json cases_of(const ReportInput& input) {
@@ -381,11 +405,11 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["gates"] = gates_of(input);
   document["rules"] = rules_json(input.rules);
   document["fabrication"] = fabrication_of(input);
-  document["flights"] = flights_of(input);
+  document["flights"] = flights_of(input.flights);
   document["cases"] = cases_of(input);
   document["what_if"] = what_if_of(input);
   document["warnings"] = issues_json(input.warnings);
-  document["checks"] = checks_of(input);
+  document["checks"] = checks_of(input.checks);
   document["limits"] = limits_of(input);
   document["keep_outs"] = keep_outs_of(input);
   document["envelope"] = envelope_of(input);

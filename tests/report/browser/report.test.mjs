@@ -297,6 +297,38 @@ describe("a range of friction", () => {
     assert.deepEqual(complaints, []);
     await page.close();
   });
+
+  test("task, checks and ways through the air are those of the friction that is shown", async () => {
+    const { file, json } = build(path.join(designs, "ore_transfer.yaml"));
+    const { page, complaints } = await open(plain, file, SMALL);
+    const summary = () => page.locator("#summary").textContent();
+    const flights = () => page.evaluate(() => [...document.querySelectorAll("#profile path.flight")].map((path) => path.getAttribute("d")));
+    const nominal = await flights();
+    await page.locator("header select").first().selectOption("high");
+    const high = json.rides.find(({ friction }) => friction === "high");
+    const digits = (value) => String(Number(value.toPrecision(4)));
+    const text = await summary();
+    assert.match(text, new RegExp(`Friction angle${digits(high.friction_angle_deg)}\u00a0deg`));
+    const entry = await page.evaluate(() => window.glissadeReport.document.rides.find(({ friction }) => friction === "high").stations.speed_m_per_s[0]);
+    assert.match(text, new RegExp(`Entry speed${digits(entry)}\u00a0m/s`));
+    assert.match(text, new RegExp(`lowest normal load ${digits(high.min_normal_load_m_per_s2 / 9.80665)}\u00a0g`));
+    assert.notDeepEqual(await flights(), nominal);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  test("the numbers behind a check follow the units", async () => {
+    const { file, json } = build(path.join(designs, "ore_transfer.yaml"));
+    const { page } = await open(plain, file, SMALL);
+    const units = page.locator("header label", { hasText: "Units" }).locator("select");
+    await units.selectOption("mm, m/s");
+    const text = await page.locator("#summary .checks").textContent();
+    assert.match(text, new RegExp(`rode ${Number((1e3 * json.arc_length_m).toPrecision(4))}\u00a0mm of`));
+    await units.selectOption("m, m/s, loads in m/s\u00b2");
+    assert.match(await page.locator("#summary .checks").textContent(),
+      new RegExp(`lowest normal load ${Number(json.min_normal_load_m_per_s2.toPrecision(4))}\u00a0m/s\u00b2`));
+    await page.close();
+  });
 });
 
 describe("a design with limits", () => {

@@ -39,6 +39,9 @@ struct StreamFlight {
                                                        const HoodPassage* nominal, const HoodPassage* hood);
 /// At the nominal friction and flow.
 [[nodiscard]] std::vector<StreamFlight> stream_flights(const Design& design, const Track& track);
+/// Of another ride of the track; its hood, which stands where it is, passes the stream with that ride's friction.
+[[nodiscard]] std::vector<StreamFlight> stream_flights(const Design& design, const Track& track,
+                                                       const Motion& motion);
 
 /// The underside of a design's hood as a line, in the same frame; empty without one.
 [[nodiscard]] std::vector<Vec2> hood_line(const Design& design, const Track& track);

@@ -28,11 +28,28 @@ namespace glissade {
 /// What was found about one property; a property that nobody looked at is `not_checked`, never a pass.
 enum class Verdict { pass, fail, not_checked };
 
+/// A piece of a sentence: words, or a value that a reader may see in other units.
+struct ReportPiece {
+  std::string words;            ///< of a value empty
+  std::optional<double> value;  ///< SI
+  std::string unit;             ///< "m", "m/s^2"
+  int digits = 4;
+};
+
 /// One line of a report's list of checks.
 struct ReportCheck {
   std::string name;
   Verdict verdict = Verdict::not_checked;
   std::string detail;  ///< the numbers behind it, one sentence
+  std::vector<ReportPiece> pieces =
+      {};                   ///< the same in pieces, of one with values that have units; else empty
+  bool of_nominal = false;  ///< it speaks of the ride at nominal friction alone
+};
+
+/// A stream in the air, before its chute or after it.
+struct ReportFlight {
+  std::string name;          ///< "from the belt", "to the belt"
+  std::vector<Vec2> points;  ///< x run from the start, y height z [m]
 };
 
 /// One limit of the design and what the track made of it.
@@ -47,6 +64,8 @@ struct ReportLimit {
 struct ReportRide {
   FrictionLevel level = FrictionLevel::nominal;
   const Motion* motion = nullptr;
+  std::vector<ReportCheck> checks = {};    ///< those of this ride that the report has of the nominal one
+  std::vector<ReportFlight> flights = {};  ///< of its stream
 };
 
 /// An area that the track stays out of; an open line where only one side is known.
@@ -71,13 +90,6 @@ struct ReportSolid {
   const CrossSection* section = nullptr;
   double max_deviation = 0.0;  ///< of the mesh as the files hold it [m]
 };
-
-/// A stream in the air, before its chute or after it.
-struct ReportFlight {
-  std::string name;          ///< "from the belt", "to the belt"
-  std::vector<Vec2> points;  ///< x run from the start, y height z [m]
-};
-
 /// A chute at one friction and one flow, in words and numbers.
 struct ReportCase {
   FrictionLevel friction = FrictionLevel::nominal;

@@ -91,8 +91,16 @@ export function gatesSection(doc, store, units) {
         element("span", { class: "exports" }, exportButtons(doc.design.stem, `gates ${title}`, () => ({ svg: standAlone(svg), width: SIZE.width, height: SIZE.height })))), svg))),
     ...[table(doc, units)].flat());
   };
-  draw();
-  store.on("units", draw);
-  const place = units.text("length", doc.gates.measuring_place_m, 4);
-  return section("gates", "Gates", element("p", { class: "hint" }, `Gates count from the lowest; speed is measured ${place} before the edge.`), holder);
+  const hint = element("p", { class: "hint" });
+  const tell = () => {
+    const place = units.text("length", doc.gates.measuring_place_m, 4);
+    const below = doc.gates.list.some((gate) => gate.distance_to_edge_m <= doc.gates.measuring_place_m);
+    hint.textContent = `Gates count from the lowest; speed is measured ${place} before the edge.`
+      + (below ? " From gates that lie no farther from it no body passes that place." : "");
+  };
+  for (const show of [draw, tell]) {
+    show();
+    store.on("units", show);
+  }
+  return section("gates", "Gates", hint, holder);
 }

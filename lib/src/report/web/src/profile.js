@@ -53,7 +53,7 @@ class Profile {
 
   wholeView() {
     let [x0, x1, z0, z1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const line of [...this.lines().map(([, one]) => one), ...(this.doc.envelope?.edges ?? []), ...this.doc.flights]) {
+    for (const line of [...this.lines().map(([, one]) => one), ...(this.doc.envelope?.edges ?? []), ...this.doc.rides.flatMap((ride) => ride.flights)]) {
       for (let i = 0; i < line.x_m.length; i += 1) {
         x0 = Math.min(x0, line.x_m[i]);
         x1 = Math.max(x1, line.x_m[i]);
@@ -109,7 +109,7 @@ class Profile {
 
   // The surface of a stream, its depth square to the floor, and its ways through the air.
   stream() {
-    const { flights } = this.doc;
+    const flights = this.doc.ride.flights ?? this.doc.flights;
     const { px, pz } = this.at;
     const other = this.store.get("whatIf");
     const height = this.doc.stations.z_m[0];

@@ -74,7 +74,11 @@ function frictionRow(body, units) {
   return ["Friction angle", `${units.text("angle", body.friction_angle_deg, 4)} (coefficient ${number(body.friction_coefficient, 4)})`];
 }
 
-function task({ endpoints, body, placement }, units) {
+// The task at the friction that is shown: with a feed the entry speed follows from it.
+function task({ endpoints, body: nominal, placement, ride }, units) {
+  const shown = Object.fromEntries(["friction_angle_deg", "friction_coefficient", "entry_speed_m_per_s"]
+    .filter((key) => ride[key] !== undefined && nominal[key] !== undefined).map((key) => [key, ride[key]]));
+  const body = { ...nominal, ...shown };
   const point = (values) => values.map((v) => number(units.convert("length", v), 5)).join(", ") + NO_BREAK + units.unit("length");
   return list([
     ["Run and drop", `${units.text("length", endpoints.run_m, 5)} and ${units.text("length", endpoints.drop_m, 5)}`],
@@ -90,8 +94,9 @@ function task({ endpoints, body, placement }, units) {
   ]);
 }
 
-function marginText({ rides }, units) {
-  const { stall_friction_angle_deg: angle, stall_margin_deg: margin } = rides.find(({ friction }) => friction === "nominal");
+function marginText({ rides, ride }, units) {
+  const level = ride.friction ?? "nominal";
+  const { stall_friction_angle_deg: angle, stall_margin_deg: margin } = rides.find(({ friction }) => friction === level);
   return angle === null ? "none below 89.9 deg" : `${units.text("angle", angle, 4)} (margin ${units.text("angle", margin, 3)})`;
 }
 
@@ -133,7 +138,18 @@ const VERDICTS = {
   "not-checked": ["\u2013", "not checked: "],
 };
 
-function tally({ checks }) {
+// The checks, those of a ride as they are of the one that is shown.
+function checksOf({ checks, ride }) {
+  return checks.map((check) => ride.checks?.find(({ name }) => name === check.name) ?? check);
+}
+
+function detailText(check, units) {
+  if (!check.detail_pieces) return check.detail;
+  return check.detail_pieces.map((piece) => (typeof piece === "string" ? piece : units.textOf(piece.unit, piece.value, piece.digits))).join("");
+}
+
+function tally(doc) {
+  const checks = checksOf(doc);
   const count = (verdict) => checks.filter((check) => check.verdict === verdict).length;
   const [held, failed, open] = [count("pass"), count("fail"), count("not-checked")];
   const text = (failed === 0 ? `${held} of ${held} checks hold` : `${failed} of ${held + failed} checks fail`)
@@ -141,14 +157,16 @@ function tally({ checks }) {
   return element("p", { class: `tally ${failed > 0 ? "fail" : held > 0 ? "pass" : "not-checked"}` }, text);
 }
 
-function checks(doc) {
-  return element("ul", { class: "checks" }, doc.checks.map((check) => {
+function checks(doc, units) {
+  const nominal = (doc.ride.friction ?? "nominal") === "nominal";
+  return element("ul", { class: "checks" }, checksOf(doc).map((check) => {
     const [sign, words] = VERDICTS[check.verdict];
     return element("li", { class: check.verdict },
       element("span", { class: "sign", "aria-hidden": "true" }, sign),
       element("span", {}, element("span", { class: "spoken" }, words), element("strong", {}, check.name),
         check.verdict === "not-checked" ? " \u2013 not checked" : null,
-        check.detail ? element("span", { class: "detail" }, check.detail) : null));
+        check.of_nominal && !nominal ? " \u2013 at nominal friction" : null,
+        check.detail ? element("span", { class: "detail" }, detailText(check, units)) : null));
   }));
 }
 
@@ -242,7 +260,7 @@ export function summary(doc, units) {
     doc.probes.length === 0 ? null : [heading("Probes"), probes(doc, units)],
     doc.cases.length === 0 ? null : [heading("Frictions and flows"), cases(doc, units)],
     doc.rules.length === 0 ? null : [heading("Rules"), rules(doc, units)],
-    heading("Verdicts"), tally(doc), checks(doc),
+    heading("Verdicts"), tally(doc), checks(doc, units),
     heading("Task"), task(doc, units),
     heading("Track"), track(doc, units),
     doc.mesh === null ? null : [heading("Mesh"), mesh(doc, units)],

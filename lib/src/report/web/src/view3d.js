@@ -98,7 +98,7 @@ class View extends Stage {
     geometry.computeVertexNormals();
     this.stream = new Group();
     this.stream.add(new Mesh(geometry, new MeshLambertMaterial({ color: 0x9a7b4f, transparent: true, opacity: 0.75, side: DoubleSide })));
-    const falls = doc.flights.filter((flight) => !other || flight.name !== "the stream falls on the belt").map((flight) => flight.x_m.map((x, i) => [x, flight.z_m[i]]));
+    const falls = (doc.ride.flights ?? doc.flights).filter((flight) => !other || flight.name !== "the stream falls on the belt").map((flight) => flight.x_m.map((x, i) => [x, flight.z_m[i]]));
     if (other && other.flight_m.length > 0) falls.push(other.flight_m);
     const material = new MeshLambertMaterial({ color: 0x9a7b4f, transparent: true, opacity: 0.35, side: DoubleSide });
     const first = stations.channel_width_m[0] / 2;
