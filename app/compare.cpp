@@ -148,7 +148,7 @@ struct HillFacts {
     if (!track.gates) return;
     const std::vector<GateRide>& rides = track.gates->conditions.front().rides;
     const auto speed = [](const GateRide& ride) {
-      return ride.arrived ? fixed_text(ride.speed_at_measuring_place, 2) : std::string("-");
+      return ride.speed_at_measuring_place ? fixed_text(*ride.speed_at_measuring_place, 2) : std::string("-");
     };
     gates = std::to_string(rides.size());
     lowest_gate = speed(rides.front());

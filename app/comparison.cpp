@@ -310,8 +310,7 @@ Figure speeds_by_gate(const std::vector<Entry>& entries) {
     line.choice = static_cast<int>(i) + 1;
     for (const GateRide& ride : entry.track->gates->conditions.front().rides) {
       line.xs.push_back(ride.gate.number);
-      line.ys.push_back(ride.arrived ? ride.speed_at_measuring_place
-                                     : std::numeric_limits<double>::quiet_NaN());
+      line.ys.push_back(ride.speed_at_measuring_place.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
     figure.lines.push_back(std::move(line));
   }

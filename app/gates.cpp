@@ -47,18 +47,47 @@ struct GatesArguments {
   bool json = false;
 };
 
+/// The speeds at the measuring place, of the gates that have one.
+std::vector<double> measured_speeds(const std::vector<GateRide>& rides) {
+  std::vector<double> speeds;
+  for (const GateRide& ride : rides) {
+    if (ride.speed_at_measuring_place) speeds.push_back(*ride.speed_at_measuring_place);
+  }
+  return speeds;
+}
+
 /// Which gate gives a speed, in words, for each condition.
 std::string gate_for(const GateTable& table, double speed) {
   std::string text;
   for (const GateCondition& condition : table.conditions) {
     const auto gate = gate_for_speed(condition.rides, speed);
-    const std::string what =
-        gate ? "gate " + rounded_text(*gate, 3) + (*gate == std::floor(*gate) ? "" : ", between gates")
-             : "no gate: they give " + speed_text(condition.rides.front().speed_at_measuring_place) + " to " +
-                   speed_text(condition.rides.back().speed_at_measuring_place);
+    const std::vector<double> speeds = measured_speeds(condition.rides);
+    std::string what = "no gate: no body gets to the edge";
+    if (gate) {
+      what = "gate " + rounded_text(*gate, 3) + (*gate == std::floor(*gate) ? "" : ", between gates");
+    } else if (!speeds.empty()) {
+      what = "no gate: they give " + speed_text(speeds.front()) + " to " + speed_text(speeds.back());
+    }
     text += (text.empty() ? "" : "\n") + condition.name + ": " + what;
   }
   return labelled("For " + speed_text(speed), text);
+}
+
+/// A gate that is ridden to the edge, and past the measuring place, with a wind and without it.
+struct BlownGate {
+  int number = 1;
+  double before = 0.0;  ///< speed at the measuring place [m/s]
+  double after = 0.0;   ///< the same with the other wind [m/s]
+};
+
+std::vector<BlownGate> blown_gates(const std::vector<GateRide>& before, const std::vector<GateRide>& after) {
+  std::vector<BlownGate> gates;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const std::optional<double>& was = before[i].speed_at_measuring_place;
+    const std::optional<double>& is = after[i].speed_at_measuring_place;
+    if (was && is) gates.push_back({before[i].gate.number, *was, *is});
+  }
+  return gates;
 }
 
 /// How many gates make up for a change of wind: from the middle gate, what the speed loses over what a gate gains.
@@ -72,16 +101,19 @@ std::string gates_for_wind(const Design& design, const Track& track, double chan
   const std::vector<GateCondition>& conditions = track.gates->conditions;
   std::string text;
   for (std::size_t k = 0; k < conditions.size(); ++k) {
-    const std::vector<GateRide>& before = conditions[k].rides;
-    const std::vector<GateRide>& after = other.gates->conditions[k].rides;
-    const std::size_t middle = before.size() / 2;
-    const double gain = after[middle].speed_at_measuring_place - before[middle].speed_at_measuring_place;
-    const double per_gate = (after.back().speed_at_measuring_place - after.front().speed_at_measuring_place) /
-                            static_cast<double>(after.size() - 1);
-    text += (text.empty() ? "" : "\n") + conditions[k].name + ": " + (gain < 0.0 ? "-" : "+") +
-            speed_text(std::fabs(gain)) + " from gate " + std::to_string(before[middle].gate.number) + ", " +
-            rounded_text(std::fabs(gain / per_gate), 2) + (gain < 0.0 ? " gates higher" : " gates lower") +
-            " make up for it";
+    const std::vector<BlownGate> gates = blown_gates(conditions[k].rides, other.gates->conditions[k].rides);
+    text += (text.empty() ? "" : "\n") + conditions[k].name + ": ";
+    if (gates.size() < 2) {
+      text += "fewer than two gates have a speed at the measuring place";
+      continue;
+    }
+    const BlownGate& middle = gates[gates.size() / 2];
+    const double gain = middle.after - middle.before;
+    const double per_gate =
+        (gates.back().after - gates.front().after) / (gates.back().number - gates.front().number);
+    text += (gain < 0.0 ? "-" : "+") + speed_text(std::fabs(gain)) + " from gate " +
+            std::to_string(middle.number) + ", " + rounded_text(std::fabs(gain / per_gate), 2) +
+            (gain < 0.0 ? " gates higher" : " gates lower") + " make up for it";
   }
   return labelled(std::string(change < 0.0 ? "Tail" : "Head") + " wind +" + speed_text(std::fabs(change)),
                   text);
@@ -130,10 +162,11 @@ ExitCode show_gates(const GatesArguments& options) {
     print(track_json(design, track));
   } else {
     const std::string heading = design.name.empty() ? std::string("Gates") : design.name;
+    const std::string below = gates_below_place(*track.gates);
     print(emphasised(heading, Emphasis::heading) + "\n  speed v " +
           length_text(track.gates->measuring_place) + " before the edge\n\n" +
           (options.slopes ? slopes_table(*track.gates) : gates_table(*track.gates)).text() +
-          (asked.empty() ? "" : "\n" + asked));
+          (below.empty() ? "" : "\n  " + below + "\n") + (asked.empty() ? "" : "\n" + asked));
   }
   if (!options.csv.empty()) write_gates_csv(options.csv, *track.gates);
   require_arrivals(design, *track.gates);

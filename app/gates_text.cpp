@@ -7,6 +7,8 @@
 #include "app/summary.hpp"
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,7 +34,9 @@ std::string speeds_text(const GateCondition& condition) {
   const GateRide& highest = condition.rides.back();
   const auto from = [](const GateRide& ride) {
     const std::string gate = " from gate " + std::to_string(ride.gate.number);
-    return ride.arrived ? speed_text(ride.speed_at_measuring_place) + gate : "does not arrive" + gate;
+    if (!ride.arrived) return "does not arrive" + gate;
+    return ride.speed_at_measuring_place ? speed_text(*ride.speed_at_measuring_place) + gate
+                                         : "does not pass the measuring place" + gate;
   };
   std::string text = condition.name + " (friction " + rounded_text(condition.body.friction.coefficient(), 4) +
                      ", drag " + rounded_text(condition.body.drag_per_metre, 4) + " 1/m";
@@ -57,12 +61,27 @@ std::string in_run_text(const InRun& in_run) {
          length_text(in_run.length() - in_run.table_begins(), 6);
 }
 
+std::string gates_below_place(const GateTable& table) {
+  std::vector<int> numbers;
+  for (const Gate& gate : table.gates) {
+    if (!passes(gate, table.measuring_place)) numbers.push_back(gate.number);
+  }
+  if (numbers.empty()) return "";
+  const std::string which = numbers.size() == 1 ? "gate " + std::to_string(numbers.front())
+                                                : "gates " + std::to_string(numbers.front()) + " to " +
+                                                      std::to_string(numbers.back());
+  return "From " + which +
+         " no body passes the measuring place: " + (numbers.size() == 1 ? "it lies" : "they lie") +
+         " no more than " + length_text(table.measuring_place) + " before the edge.";
+}
+
 std::string gates_lines(const Track& track) {
   if (!track.gates) return "";
   const GateTable& table = *track.gates;
   std::string text =
       spacing_text(table) + "\nspeed " + length_text(table.measuring_place) + " before the edge";
   for (const GateCondition& condition : table.conditions) text += "\n" + speeds_text(condition);
+  if (const std::string below = gates_below_place(table); !below.empty()) text += "\n" + below;
   return labelled("Gates", text);
 }
 
@@ -81,9 +100,13 @@ Table slopes_table(const GateTable& table) {
     std::vector<std::string> row = {std::to_string(table.gates[i].number)};
     for (const GateCondition& condition : table.conditions) {
       const GateRide& ride = condition.rides[i];
+      if (!ride.slopes) {
+        row.insert(row.end(), 3, "-");
+        continue;
+      }
       for (const double value :
-           {kFriction * ride.slopes.by_friction, kDrag * ride.slopes.by_drag, ride.slopes.by_length}) {
-        row.push_back(ride.arrived ? fixed_text(value, 3) : "-");
+           {kFriction * ride.slopes->by_friction, kDrag * ride.slopes->by_drag, ride.slopes->by_length}) {
+        row.push_back(fixed_text(value, 3));
       }
     }
     text.add(std::move(row));
@@ -110,8 +133,9 @@ Table gates_table(const GateTable& table) {
         return ride.arrived ? fixed_text(value, decimals) : std::string("-");
       };
       constexpr double kKilometresPerHour = 3.6;
-      row.push_back(told(ride.speed_at_measuring_place, 2));
-      row.push_back(told(ride.speed_at_measuring_place * kKilometresPerHour, 1));
+      const std::optional<double>& measured = ride.speed_at_measuring_place;
+      row.push_back(measured ? fixed_text(*measured, 2) : "-");
+      row.push_back(measured ? fixed_text(*measured * kKilometresPerHour, 1) : "-");
       row.push_back(told(ride.speed_at_edge, 2));
       row.push_back(told(ride.travel_time, 2));
       row.push_back(fixed_text(ride.highest_load / kStandardGravity, 2));

@@ -15,6 +15,9 @@ namespace glissade::app {
 /// Gates for a summary: how many, how far apart, and the speeds from the lowest and the highest; empty without gates.
 [[nodiscard]] std::string gates_lines(const Track& track);
 
+/// Which gates lie at the measuring place or below it, a sentence; empty where none does.
+[[nodiscard]] std::string gates_below_place(const GateTable& table);
+
 /// How the speed from every gate answers to friction, drag and length, in steps that one meets.
 [[nodiscard]] Table slopes_table(const GateTable& table);
 

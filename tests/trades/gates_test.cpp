@@ -266,9 +266,9 @@ TEST_CASE("more friction, more drag or head wind make every gate slower, a longe
     CHECK(head[i].speed_at_edge < base[i].speed_at_edge);
     CHECK(tail[i].speed_at_edge > base[i].speed_at_edge);
     CHECK(rough[i].speed_at_edge < base[i].speed_at_edge);
-    CHECK(base[i].slopes.by_friction < 0.0);
-    CHECK(base[i].slopes.by_drag < 0.0);
-    CHECK(base[i].slopes.by_length > 0.0);
+    CHECK(base[i].slopes->by_friction < 0.0);
+    CHECK(base[i].slopes->by_drag < 0.0);
+    CHECK(base[i].slopes->by_length > 0.0);
   }
 }
 
@@ -277,18 +277,38 @@ TEST_CASE("a body that stalls or starts below the measuring place is told so, no
   const std::vector<Gate> gates = even_gates(track->length(), 24.0, 2);
   const std::vector<GateRide> stuck = ride_gates(track, gates, skier(0.9, 0.0), 10.0, kGravity);
   CHECK_FALSE(stuck.front().arrived);
+  CHECK_FALSE(stuck.front().speed_at_measuring_place.has_value());
   const std::vector<GateRide> above = ride_gates(track, gates, skier(0.03, 0.0), 90.0, kGravity);
   CHECK(above.front().arrived);
-  CHECK(above.front().speed_at_measuring_place == 0.0);
+  CHECK(above.front().speed_at_edge > 0.0);
+  CHECK_FALSE(above.front().speed_at_measuring_place.has_value());
+  CHECK_FALSE(above.front().slopes.has_value());
   CHECK(above.back().speed_at_measuring_place > 0.0);
+  CHECK(above.back().slopes.has_value());
+  // A gate at the place itself has not passed it.
+  CHECK_FALSE(passes(gates.front(), gates.front().to_edge));
+  CHECK_FALSE(gate_for_speed(above, 1.0).has_value());
+}
+
+TEST_CASE("a measuring place that no gate's ride passes is refused") {
+  const CenterlinePtr track = garmisch_track();
+  const std::vector<Gate> gates = even_gates(track->length(), 24.0, 2);
+  const auto rides = [&](double place) {
+    return ride_gates(track, gates, skier(0.03, 0.0), place, kGravity);
+  };
+  CHECK_THROWS_WITH(rides(300.0), Contains("300 m before the edge no ride of this line passes") &&
+                                      Contains("102.9 m before it"));
+  CHECK_THROWS_AS(rides(track->length()), InputError);
+  CHECK_THROWS_WITH(rides(-1.0), Contains("measuring_place: -1 m is out of range"));
+  CHECK_NOTHROW(rides(102.0));
 }
 
 TEST_CASE("the gate for a speed lies between those that are slower and faster") {
   const CenterlinePtr track = garmisch_track();
   const std::vector<GateRide> rides =
       ride_gates(track, even_gates(track->length(), 24.0, 49), skier(0.03, 0.0013), 10.0, kGravity);
-  CHECK(gate_for_speed(rides, rides[10].speed_at_measuring_place) == 11.0);
-  const double between = 0.5 * (rides[10].speed_at_measuring_place + rides[11].speed_at_measuring_place);
+  CHECK(gate_for_speed(rides, *rides[10].speed_at_measuring_place) == 11.0);
+  const double between = 0.5 * (*rides[10].speed_at_measuring_place + *rides[11].speed_at_measuring_place);
   CHECK(*gate_for_speed(rides, between) == Approx(11.5).epsilon(1e-9));
   CHECK_FALSE(gate_for_speed(rides, 10.0).has_value());
   CHECK_FALSE(gate_for_speed(rides, 40.0).has_value());

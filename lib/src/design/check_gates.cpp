@@ -35,6 +35,18 @@ void check_area_of_in_run(const Design& design, Collected& findings) {
   }
 }
 
+/// A place above the start of the track; gate_table() holds it to the gates themselves.
+void check_measuring_place(const Design& design, Collected& findings) {
+  const InRunDesign& in_run = design.centerline.in_run;
+  const double length = in_run.shape().length;
+  const double place = design.gates->measuring_place;
+  if (!(in_run.longest() > 0.0 && in_run.t > 0.0) || place < length) return;
+  const auto [measured, whole] = texts_apart(place, length, length_text);
+  report(findings, {"gates.measuring_place", "gates"},
+         {"", "measuring_place: " + measured + " before the edge no ride of this line passes",
+          "The in-run is " + whole + " long from the highest start to the edge.", "measuring_place: 10 m"});
+}
+
 }  // namespace
 
 void check_gates(const Design& design, Collected& findings) {
@@ -51,6 +63,7 @@ void check_gates(const Design& design, Collected& findings) {
   check_drag_area(gates.fast, "fast");
   if (design.centerline.kind == CenterlineKind::in_run) {
     check_area_of_in_run(design, findings);
+    check_measuring_place(design, findings);
   } else if (!gates.start_area) {
     report(findings, {"gates", "centerline.kind"},
            {"", "gates: nothing says how long the start area is",

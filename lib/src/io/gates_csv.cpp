@@ -4,6 +4,7 @@
 #include "glissade/io/atomic_file.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace glissade {
@@ -33,10 +34,15 @@ void write_gates_csv(const std::filesystem::path& file, const GateTable& table) 
     for (const double value : {table.gates[i].to_edge, at.x, at.y, at.z}) text += "," + exact_text(value);
     for (const GateCondition& condition : table.conditions) {
       const GateRide& ride = condition.rides[i];
-      for (const double value :
-           {ride.travel_time, ride.speed_at_measuring_place, ride.speed_at_edge, ride.highest_load,
-            ride.slopes.by_friction, ride.slopes.by_drag, ride.slopes.by_length}) {
-        text += "," + (ride.arrived ? exact_text(value) : std::string());
+      using Value = std::optional<double>;
+      const auto slope = [&](double SpeedSlopes::*const by) {
+        return ride.slopes ? Value((*ride.slopes).*by) : Value();
+      };
+      for (const Value& value :
+           {Value(ride.travel_time), ride.speed_at_measuring_place, Value(ride.speed_at_edge),
+            Value(ride.highest_load), slope(&SpeedSlopes::by_friction), slope(&SpeedSlopes::by_drag),
+            slope(&SpeedSlopes::by_length)}) {
+        text += "," + (ride.arrived && value ? exact_text(*value) : std::string());
       }
     }
     text += "\n";

@@ -67,12 +67,28 @@ double largest_height_step(const std::vector<Vec3>& positions) {
   return largest;
 }
 
+/// Calls `make`; what it throws about a key of the gates gets that key's place in the design.
+template <typename Make>
+auto at_keys_of_gates(const Design& design, Make&& make) {
+  return at_place(design.where("gates"), [&] {
+    try {
+      return std::forward<Make>(make)();
+    } catch (const InputError& error) {
+      std::vector<Issue> issues = error.issues();
+      for (Issue& issue : issues) {
+        if (!issue.where.empty()) issue.where = design.where("gates." + issue.where);
+      }
+      throw InputError(std::move(issues));
+    }
+  });
+}
+
 }  // namespace
 
 std::optional<GateTable> gate_table(const Design& design, const CenterlinePtr& centerline,
                                     const Placement& placement) {
   if (!design.gates) return {};
-  return at_place(design.where("gates"), [&] {
+  return at_keys_of_gates(design, [&] {
     GateTable table;
     table.measuring_place = design.gates->measuring_place;
     table.gates = gates_of(design, *centerline);

@@ -269,7 +269,7 @@ SheetTable gates_sheet_table(const GateTable& gates) {
                rounded_text(gates.positions[i].x, 7), rounded_text(gates.positions[i].z, 7)};
     for (const GateCondition& condition : gates.conditions) {
       const GateRide& ride = condition.rides[i];
-      row.push_back(ride.arrived ? rounded_text(ride.speed_at_measuring_place, 4) : "-");
+      row.push_back(ride.speed_at_measuring_place ? rounded_text(*ride.speed_at_measuring_place, 4) : "-");
     }
     table.rows.push_back(std::move(row));
   }

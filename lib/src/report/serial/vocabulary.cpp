@@ -214,15 +214,18 @@ namespace {
 void add_gate_ride(Json& json, const GateRide& ride) {
   const auto told = [&](double value) { return ride.arrived ? number(value) : Json(nullptr); };
   json["travel_time_s"] = told(ride.travel_time);
-  json["speed_at_measuring_place_m_per_s"] = told(ride.speed_at_measuring_place);
+  const auto measured = [&](auto value) {
+    return ride.speed_at_measuring_place && ride.slopes ? number(value()) : Json(nullptr);
+  };
+  json["speed_at_measuring_place_m_per_s"] = measured([&] { return *ride.speed_at_measuring_place; });
   json["speed_at_edge_m_per_s"] = told(ride.speed_at_edge);
   json["max_normal_load_m_per_s2"] = number(ride.highest_load);
   json["max_normal_load_at_m"] = number(ride.highest_load_at);
   json["min_normal_load_m_per_s2"] = number(ride.lowest_load);
   json["max_radial_acceleration_m_per_s2"] = number(ride.highest_radial);
-  json["speed_by_friction_m_per_s"] = told(ride.slopes.by_friction);
-  json["speed_by_drag_m2_per_s"] = told(ride.slopes.by_drag);
-  json["speed_by_length_per_s"] = told(ride.slopes.by_length);
+  json["speed_by_friction_m_per_s"] = measured([&] { return ride.slopes->by_friction; });
+  json["speed_by_drag_m2_per_s"] = measured([&] { return ride.slopes->by_drag; });
+  json["speed_by_length_per_s"] = measured([&] { return ride.slopes->by_length; });
 }
 
 }  // namespace

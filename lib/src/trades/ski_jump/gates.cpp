@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace glissade {
@@ -52,10 +53,29 @@ GateRide ridden(const CenterlinePtr& track, const Gate& gate, const Body& body, 
   if (!ride.arrived) return ride;
   ride.travel_time = motion.travel_time();
   ride.speed_at_edge = motion.exit_speed();
-  const double place = std::clamp(gate.to_edge - measuring_place, 0.0, motion.distance());
+  if (!passes(gate, measuring_place)) return ride;
+  const double place = std::min(gate.to_edge - measuring_place, motion.distance());  // but for rounding
   ride.speed_at_measuring_place = motion.at(place).speed;
-  if (place > 0.0) ride.slopes = speed_slopes(track, gate.from_start, gate.from_start + place, body, gravity);
+  ride.slopes = speed_slopes(track, gate.from_start, gate.from_start + place, body, gravity);
   return ride;
+}
+
+void require_passed(const std::vector<Gate>& gates, double measuring_place) {
+  if (!(measuring_place >= 0.0)) {
+    throw InputError({"measuring_place",
+                      "measuring_place: " + length_text(measuring_place) + " is out of range",
+                      "It counts back from the edge: 0 or more.", ""});
+  }
+  double farthest = 0.0;
+  for (const Gate& gate : gates) {
+    if (passes(gate, measuring_place)) return;
+    farthest = std::max(farthest, gate.to_edge);
+  }
+  if (gates.empty()) return;
+  const auto [place, highest] = texts_apart(measuring_place, farthest, length_text);
+  throw InputError({"measuring_place",
+                    "measuring_place: " + place + " before the edge no ride of this line passes",
+                    "The gate farthest from the edge lies " + highest + " before it.", "10 m"});
 }
 
 }  // namespace
@@ -92,6 +112,10 @@ std::vector<Gate> stepped_gates(double length, double start_area, double step) {
   return gates;
 }
 
+bool passes(const Gate& gate, double measuring_place) {
+  return measuring_place < gate.to_edge;
+}
+
 Motion ride_from(const CenterlinePtr& track, double from_start, const Body& body, double gravity) {
   if (from_start == 0.0) return Motion(track, body, gravity);
   Body shifted = body;
@@ -108,6 +132,7 @@ Motion ride_from(const CenterlinePtr& track, double from_start, const Body& body
 
 std::vector<GateRide> ride_gates(const CenterlinePtr& track, const std::vector<Gate>& gates, const Body& body,
                                  double measuring_place, double gravity) {
+  require_passed(gates, measuring_place);
   std::vector<GateRide> rides;
   rides.reserve(gates.size());
   for (const Gate& gate : gates) rides.push_back(ridden(track, gate, body, measuring_place, gravity));
@@ -116,12 +141,12 @@ std::vector<GateRide> ride_gates(const CenterlinePtr& track, const std::vector<G
 
 std::optional<double> gate_for_speed(const std::vector<GateRide>& rides, double speed) {
   for (std::size_t i = 0; i < rides.size(); ++i) {
-    if (rides[i].arrived && rides[i].speed_at_measuring_place == speed) return rides[i].gate.number;
-    if (i == 0 || !rides[i].arrived || !rides[i - 1].arrived) continue;
-    const double below = rides[i - 1].speed_at_measuring_place;
-    const double above = rides[i].speed_at_measuring_place;
-    if ((speed - below) * (speed - above) >= 0.0) continue;
-    return rides[i - 1].gate.number + (speed - below) / (above - below);
+    const std::optional<double> above = rides[i].speed_at_measuring_place;
+    if (above == speed) return rides[i].gate.number;
+    if (i == 0) continue;
+    const std::optional<double> below = rides[i - 1].speed_at_measuring_place;
+    if (!above || !below || (speed - *below) * (speed - *above) >= 0.0) continue;
+    return rides[i - 1].gate.number + (speed - *below) / (*above - *below);
   }
   return {};
 }

@@ -39,24 +39,28 @@ struct SpeedSlopes {
 /// The ride of one body from one gate.
 struct GateRide {
   Gate gate;
-  bool arrived = false;                   ///< otherwise only the loads are told
-  double travel_time = 0.0;               ///< from the gate to the edge [s]
-  double speed_at_measuring_place = 0.0;  ///< [m/s]
-  double speed_at_edge = 0.0;             ///< [m/s]
-  double highest_load = 0.0;              ///< per unit mass [m/s^2]
-  double highest_load_at = 0.0;           ///< arc length from the start of the track [m]
-  double lowest_load = 0.0;               ///< [m/s^2]
-  double highest_radial = 0.0;            ///< kappa u^2 [m/s^2]
-  double highest_radial_at = 0.0;         ///< arc length from the start of the track [m]
-  SpeedSlopes slopes;                     ///< of the speed at the measuring place
+  bool arrived = false;        ///< otherwise only the loads are told
+  double travel_time = 0.0;    ///< from the gate to the edge [s]
+  double speed_at_edge = 0.0;  ///< [m/s]
+  /// [m/s]; none where the ride does not arrive or does not pass the place, which lies at the gate or above it
+  std::optional<double> speed_at_measuring_place;
+  std::optional<SpeedSlopes> slopes;  ///< of that speed
+  double highest_load = 0.0;          ///< per unit mass [m/s^2]
+  double highest_load_at = 0.0;       ///< arc length from the start of the track [m]
+  double lowest_load = 0.0;           ///< [m/s^2]
+  double highest_radial = 0.0;        ///< kappa u^2 [m/s^2]
+  double highest_radial_at = 0.0;     ///< arc length from the start of the track [m]
 };
+
+/// @return whether a body from a gate passes the place where speed is measured: it lies below the gate
+[[nodiscard]] bool passes(const Gate& gate, double measuring_place);
 
 /// Rides a body from every gate, each ride once.
 /// @param track            from the highest start to the take-off edge
 /// @param body             starts from rest at each gate, or with its entry speed
 /// @param measuring_place  distance before the edge where speed is measured [m]; 0 or more
-/// @return one ride a gate, in their order. A measuring place that lies above a gate has that gate's entry speed.
-/// @throws as Motion
+/// @return one ride a gate, in their order
+/// @throws InputError if the measuring place is negative, or no gate's ride passes it; else as Motion
 [[nodiscard]] std::vector<GateRide> ride_gates(const CenterlinePtr& track, const std::vector<Gate>& gates,
                                                const Body& body, double measuring_place,
                                                double gravity = kDefaultGravity);
@@ -95,7 +99,8 @@ struct GateTable {
 };
 
 /// @return the gate, as a number between gates where it falls between them, whose speed at the measuring place is
-///         `speed` [m/s], by linear interpolation between neighbours; none where all gates are slower or faster
+///         `speed` [m/s], by linear interpolation between neighbours; none where all gates are slower or faster, of
+///         those whose rides pass the place
 [[nodiscard]] std::optional<double> gate_for_speed(const std::vector<GateRide>& rides, double speed);
 
 }  // namespace glissade
