@@ -257,6 +257,55 @@ TEST_CASE("what rules measure on a straight slide is what its formulas say, at t
   CHECK(judgements[2].margin == Approx(10.0 * std::numbers::pi / 180.0 - slope).epsilon(1e-12));
 }
 
+namespace {
+
+const Judgement& judgement_of(const std::vector<Judgement>& judgements, std::string_view id) {
+  const auto found = std::find_if(judgements.begin(), judgements.end(),
+                                  [&](const Judgement& one) { return one.rule.id == id; });
+  REQUIRE(found != judgements.end());
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("the load on a jumper is held against the weight on this table and the rule of r1") {
+  for (const char* const file :
+       {"hills/garmisch_hs142.yaml", "hills/lahti_hs130.yaml", "hills/wisla_hs134.yaml"}) {
+    CAPTURE(file);
+    const Design design = read_design(designs_path(file));
+    const Track track = solve(design);
+    const Measurements measurements = rule_measurements(design, track);
+    const Measurements::Entry* const load = measurements.find("highest_normal_load");
+    const Measurements::Entry* const above = measurements.find("load_above_table_weight");
+    REQUIRE(above != nullptr);
+    const double weight = design.gravity * std::cos(design.centerline.in_run.alpha.radians());
+    CHECK(*above->value == Approx(*load->value - weight).epsilon(1e-9));
+    CHECK(above->place == load->place);
+    const std::vector<Judgement> judgements = judge_rules(design, track);
+    const Judgement& judged = judgement_of(judgements, "fis.in-run.load");
+    CHECK(judged.rule.bound.highest == Approx(1.0 / 0.14).epsilon(1e-12));
+    CHECK((judged.verdict == RuleVerdict::pass) == (*load->value <= weight + 1.0 / 0.14));
+    // Where both are at E2 the load says what the radial acceleration does.
+    CHECK(judged.verdict == judgement_of(judgements, "fis.in-run.radial-acceleration").verdict);
+  }
+}
+
+TEST_CASE("one in-run has one ratio of the start area, whatever its e counts to") {
+  const auto judged = [](const std::string& lengths) {
+    const Design design = parse_design(
+        "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.03}\n"
+        "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 60 m, t: 6.9 m, es: 33.1 m, " +
+            lengths + "}\nhill: {size: 142 m}\ngates: {count: 49}\n",
+        "d.yaml");
+    return judgement_of(judge_rules(design, solve(design)), "fis.in-run.start-area");
+  };
+  const Judgement to_table = judged("e1: 96 m");
+  const Judgement to_edge = judged("e1: 102.9 m, e_counts_to: edge");
+  CHECK(*to_table.value == Approx(33.1 / 96.0).epsilon(1e-12));
+  CHECK(*to_edge.value == Approx(*to_table.value).epsilon(1e-12));
+  CHECK(to_edge.verdict == to_table.verdict);
+}
+
 TEST_CASE("the examples of docs/rules.md read as they stand") {
   const std::string page = bytes_of(designs_path("../docs/rules.md"));
   int designs = 0;

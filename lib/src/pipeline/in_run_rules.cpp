@@ -1,5 +1,7 @@
 #include "pipeline/in_run_rules.hpp"
 
+#include "glissade/core/math.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -68,7 +70,7 @@ struct Letters {
   double r1 = 0.0;                   ///< [m]; of a shape that is no certificate's the smallest radius
   double t = 0.0;                    ///< [m]; 0 where the track does not end straight
   double e1 = 0.0;                   ///< arc length where the first straight ends [m]
-  double longest = 0.0;              ///< from the highest start, as e counts [m]
+  double longest = 0.0;              ///< from the highest start to the table [m]
   std::optional<double> start_area;  ///< [m]
 };
 
@@ -92,7 +94,8 @@ Letters letters_of(const Design& design, const Track& track) {
     letters.r1 = in_run.r1;
     letters.t = in_run.t;
     letters.e1 = breaks[1];
-    letters.longest = in_run.longest();
+    // Ratios of certificates count e1 to the table, whatever the file's e counts to.
+    letters.longest = in_run.shape().length - in_run.t;
     if (const auto es = in_run.start_area()) letters.start_area = es;
     return letters;
   }
@@ -136,6 +139,14 @@ void measure_letters(const Design& design, const Track& track, Measurements& mea
   measurements.set("curvature_step_at_e1", track.centerline->at(letters.e1).curvature, letters.e1, "E1");
 }
 
+/// What presses a jumper down beyond the weight on the table.
+void measure_load(const Design& design, double alpha, Measurements& measurements) {
+  const Measurements::Entry* const load = measurements.find("highest_normal_load");
+  if (load == nullptr || !load->value) return;
+  measurements.set("load_above_table_weight", *load->value - design.gravity * math::cos(alpha),
+                   load->arc_length, load->place);
+}
+
 void measure_grooves(const Design& design, Measurements& measurements) {
   const auto* const grooves =
       design.cross_section ? std::get_if<section::TrackGroove>(&*design.cross_section) : nullptr;
@@ -170,6 +181,10 @@ void measure_in_run(const Design& design, const Track& track, Measurements& meas
     for (const char* const key : {"gate_step_height", "highest_take_off_speed", "lowest_take_off_speed"}) {
       measurements.set_missing(key, "gates: {count: 49}");
     }
+  }
+  // After the gates, whose load is that of the hill.
+  if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
+    measure_load(design, track.centerline->slope_angle(track.centerline->length()), measurements);
   }
 }
 

@@ -46,6 +46,8 @@ constexpr std::array kOfTracks = std::to_array<RuleQuantity>({
     {"track_spacing", length, "distance between the middles of the grooves"},
     {"track_groove_width", length, "width of a groove"},
     {"track_groove_depth", length, "depth of the grooves"},
+    {"load_above_table_weight", acceleration,
+     "highest normal load less that of a body at rest on the table, g cos(alpha)"},
     {"highest_take_off_speed", speed, "take-off speed from the highest gate"},
     {"lowest_take_off_speed", speed, "take-off speed from the lowest gate"},
     // chutes: the worst over low, nominal and high friction, and over trickle, nominal and surge flow
