@@ -106,6 +106,17 @@ std::string rides_text(const SurveyRides& rides) {
                            : "");
 }
 
+/// Points within reach of the track, but off its ends by more than the tolerance.
+std::string beyond_text(const Survey& survey, const SurveyOptions& options) {
+  std::string text;
+  for (const SurveyedPlace& place : survey.places) {
+    if (std::fabs(place.beyond) <= options.tolerance) continue;
+    text += (text.empty() ? "" : "\n") + place.name + " lies " + length_text(std::fabs(place.beyond), 3) +
+            (place.beyond < 0.0 ? " before the start" : " beyond the end") + ", and is held against it";
+  }
+  return text.empty() ? "" : labelled("Off the track", text);
+}
+
 std::string survey_summary(const Design& design, const Survey& survey, const SurveyRides& rides,
                            const SurveyOptions& options) {
   const SurveyedPlace& worst = survey.places[survey.worst];
@@ -126,7 +137,7 @@ std::string survey_summary(const Design& design, const Survey& survey, const Sur
     gaps += (gaps.empty() ? "" : "\n") + std::string("no point from ") + length_text(gap.from) + " to " +
             length_text(gap.to);
   }
-  return text + labelled("Gaps", gaps) + labelled("Ride", rides_text(rides));
+  return text + beyond_text(survey, options) + labelled("Gaps", gaps) + labelled("Ride", rides_text(rides));
 }
 
 ExitCode survey(const SurveyArguments& options) {

@@ -105,6 +105,18 @@ TEST_CASE("a deviation that was built is found again, square to the profile, and
   CHECK(survey_of(*track, points_on(*track, 0.0, track->length(), 200, 0.0, bump), wide).sound());
 }
 
+TEST_CASE("a point beyond an end of the track is held against that end, and told") {
+  const CenterlinePtr track = in_run();
+  std::vector<SurveyPoint> points = points_on(*track, 0.0, 102.9, 40, 0.0, [](double) { return 0.0; });
+  const double alpha = track->slope_angle(track->length());
+  points.back().run += 0.5 * std::cos(alpha);
+  points.back().drop += 0.5 * std::sin(alpha);
+  const Survey survey = survey_of(*track, points, {});
+  CHECK(survey.places.back().beyond == Approx(0.5).epsilon(1e-9));
+  CHECK(survey.places.back().arc_length == track->length());
+  CHECK(survey.places[20].beyond == 0.0);
+}
+
 TEST_CASE("stretches without points are told, those at the ends too") {
   const CenterlinePtr track = in_run();
   std::vector<SurveyPoint> points = points_on(*track, 8.0, 40.0, 33, 0.0, [](double) { return 0.0; });

@@ -127,6 +127,7 @@ std::string survey_json(const Design& design, const Survey& survey, const Survey
                               {"arc_length_m", place.arc_length},
                               {"deviation_m", place.deviation},
                               {"aside_m", place.aside},
+                              {"beyond_m", place.beyond},
                               {"slope_angle_deg", degrees(place.slope_angle)},
                               {"slope_deviation_deg", degrees(place.slope_deviation)},
                               {"curvature_per_m", number(place.curvature)},

@@ -192,7 +192,7 @@ Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& point
     survey.places.push_back({point.name, foot.arc_length, foot.above - options.height, point.aside,
                              Angle::from_radians(as_built.slope_angle),
                              Angle::from_radians(as_built.slope_angle - designed.slope_angle),
-                             as_built.curvature, designed.curvature});
+                             as_built.curvature, designed.curvature, foot.beyond});
   }
   add_gaps(design, options, survey);
   add_worst(options, survey);

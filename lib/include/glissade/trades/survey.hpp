@@ -40,6 +40,8 @@ struct SurveyedPlace {
   Angle slope_deviation;    ///< that less the design's
   double curvature = 0.0;   ///< as built [1/m]
   double designed_curvature = 0.0;  ///< [1/m]
+  double beyond =
+      0.0;  ///< along the tangent, of a point before the start (negative) or beyond the end, which it is held against [m]
 };
 
 /// A stretch without points.
