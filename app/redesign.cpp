@@ -98,11 +98,9 @@ Table shapes_table(const Redesign& found) {
       table.add({shape.name, shape.problem});
       continue;
     }
-    // A bend that begins at full curvature has no rate, a power curve one without bound.
-    constexpr double kJump = 1e-6;      // [1/m]
-    constexpr double kUnbounded = 1.0;  // [1/m^2]
+    constexpr double kJump = 1e-6;  // rounding; a bend that begins at full curvature has no rate [1/m]
     const std::string growth =
-        shape.curvature_rate > kUnbounded ? "unbounded" : rounded_text(shape.curvature_rate, 3);
+        std::isfinite(shape.curvature_rate) ? rounded_text(shape.curvature_rate, 3) : "unbounded";
     table.add({shape.name, fixed_text(shape.ends.drop, 2),
                difference_text(shape.ends.drop - certificate.ends.drop), fixed_text(shape.length, 2),
                fixed_text(shape.take_off_speed, 3), fixed_text(shape.highest_load / kStandardGravity, 3),
@@ -112,12 +110,17 @@ Table shapes_table(const Redesign& found) {
   return table;
 }
 
-/// "0.31 m of tower per m"
+/// "0.31 m per m"; of the take-off speed both prices, and what they hold
 std::string price_words(const LetterPrice& price) {
   const bool angle = price.dimension == Dimension::angle;
   const double value = price.price * (angle ? Angle::from_degrees(1.0).radians() : 1.0);
   const std::string unit = angle ? "deg" : price.dimension == Dimension::speed ? "m/s" : "m";
-  return rounded_text(value, 3) + " m per " + unit;
+  const std::string words = rounded_text(value, 3) + " m per " + unit;
+  if (!price.price_with_rules) return words;
+  std::string letters;
+  for (const std::string& letter : price.following) letters += (letters.empty() ? "" : " and ") + letter;
+  return words + " with " + letters + " as " + (price.following.size() > 1 ? "they are" : "it is") + ", " +
+         rounded_text(*price.price_with_rules, 3) + " with " + letters + " as the rules ask at each speed";
 }
 
 std::string prices_text(const Redesign& found) {

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/design/write.hpp"
+#include "glissade/pipeline/json.hpp"
 #include "glissade/pipeline/rules.hpp"
 
 #include "support/catch.hpp"
@@ -13,6 +14,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 namespace redesign_test {
 
@@ -194,6 +196,47 @@ TEST_CASE(
   CHECK(r1.certainty == Certainty::derived);  // nobody read it in the norm
   CHECK(std::fabs(r1.value - 0.14 * found.take_off.speed * found.take_off.speed) < 1e-6);
   CHECK(r1.price > 0.0);
+}
+
+TEST_CASE("the take-off speed has a price of its own, and one with the letters that rules size by it") {
+  const Redesign found = redesign(garmisch_design(), {}, {});
+  const auto price = [&](const std::string& letter) {
+    return *std::find_if(found.prices.begin(), found.prices.end(),
+                         [&](const LetterPrice& one) { return one.letter == letter; });
+  };
+  const LetterPrice speed = price("v");
+  CHECK(speed.following == std::vector<std::string>{"r1", "t"});
+  // Both by differences of the drop: r1 = 0.14 v^2, t = 0.25 v.
+  const auto drop = [&](double v, double sizing) {
+    InRunShape shape = found.within_rules;
+    shape.r1 = 0.14 * sizing * sizing;
+    shape.t = 0.25 * sizing;
+    TakeOff to = found.take_off;
+    to.speed = v;
+    return drop_of(reaching(shape, to));
+  };
+  const double v = found.take_off.speed;
+  constexpr double kStep = 0.01;  // [m/s]
+  CHECK(speed.price == Approx((drop(v + kStep, v) - drop(v - kStep, v)) / (2.0 * kStep)).epsilon(1e-5));
+  CHECK(*speed.price_with_rules ==
+        Approx((drop(v + kStep, v + kStep) - drop(v - kStep, v - kStep)) / (2.0 * kStep)).epsilon(1e-5));
+  CHECK_FALSE(price("r1").price_with_rules.has_value());
+  // Rules that count with a design speed do not follow the take-off's.
+  Design sized = garmisch_design();
+  sized.hill.design_speed = 27.0;
+  CHECK_FALSE(redesign(sized, {}, {}).prices.back().price_with_rules.has_value());
+}
+
+TEST_CASE("a curvature that grows without bound is infinite, in JSON null") {
+  const Design design = garmisch_design();
+  const Redesign found = redesign(design, {}, {});
+  CHECK(std::isinf(shape_named(found, "power curve").curvature_rate));
+  CHECK(std::isfinite(shape_named(found, "load-controlled").curvature_rate));
+  const std::string json = redesign_json(design, found);
+  const std::size_t curve = json.find("power curve");
+  REQUIRE(curve != std::string::npos);
+  const std::size_t rate = json.find("\"curvature_rate_per_m2\"", curve);
+  CHECK(json.substr(rate, 29) == "\"curvature_rate_per_m2\": null");
 }
 
 TEST_CASE("a redesign reads back as a design that gives its numbers") {

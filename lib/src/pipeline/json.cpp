@@ -402,7 +402,7 @@ std::string redesign_json(const Design& design, const Redesign& found) {
     Json row{{"name", shape.name}};
     row["problem"] = shape.problem.empty() ? Json(nullptr) : Json(shape.problem);
     const bool there = shape.track != nullptr && shape.problem.empty();
-    const auto add = [&](const char* key, double value) { row[key] = there ? Json(value) : Json(nullptr); };
+    const auto add = [&](const char* key, double value) { row[key] = there ? number(value) : Json(nullptr); };
     add("drop_m", shape.ends.drop);
     add("saved_m", drop - shape.ends.drop);
     add("run_m", shape.ends.run);
@@ -420,6 +420,8 @@ std::string redesign_json(const Design& design, const Redesign& found) {
     json["letters"].push_back({{"letter", price.letter},
                                {"value", price.value},
                                {"drop_m_per_unit", price.price},
+                               {"drop_m_per_unit_with_rules",
+                                price.price_with_rules ? Json(*price.price_with_rules) : Json(nullptr)},
                                {"rule", price.rule.empty() ? Json(nullptr) : Json(price.rule)},
                                {"certainty", price.certainty ? Json(word(*price.certainty)) : Json(nullptr)},
                                {"needs_checking", price.certainty && needs_checking(*price.certainty)}});

@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, 5> kGoalWords = {"least-drop", "least-len
 struct RuledBound {
   double value = 0.0;
   const Rule* rule = nullptr;
+  double by_speed = 0.0;  ///< d(value)/d(v0), of a rule that counts with v0
 };
 
 struct RuledLetters {
@@ -39,8 +40,9 @@ struct RuledLetters {
   std::optional<RuledBound> table;     ///< t at least
 };
 
-void tighten(std::optional<RuledBound>& bound, double value, const Rule& rule, double sign) {
-  if (!bound || sign * value > sign * bound->value) bound = RuledBound{value, &rule};
+void tighten(std::optional<RuledBound>& bound, double value, const Rule& rule, double sign,
+             double by_speed = 0.0) {
+  if (!bound || sign * value > sign * bound->value) bound = RuledBound{value, &rule, by_speed};
 }
 
 bool applies(const Rule& rule, const Measurements& measurements) {
@@ -64,9 +66,10 @@ RuledLetters ruled_letters(const Design& design, const Measurements& measurement
     if (rule.quantity == "transition_radius" && bound.lowest)
       tighten(letters.radius, *bound.lowest, rule, 1.0);
     if (rule.quantity == "design_radial_acceleration" && bound.highest)
-      tighten(letters.radius, v0 * v0 / *bound.highest, rule, 1.0);
+      tighten(letters.radius, v0 * v0 / *bound.highest, rule, 1.0, 2.0 * v0 / *bound.highest);
     if (rule.quantity == "table_length" && bound.lowest) tighten(letters.table, *bound.lowest, rule, 1.0);
-    if (rule.quantity == "table_time" && bound.lowest) tighten(letters.table, v0 * *bound.lowest, rule, 1.0);
+    if (rule.quantity == "table_time" && bound.lowest)
+      tighten(letters.table, v0 * *bound.lowest, rule, 1.0, *bound.lowest);
   }
   return letters;
 }
@@ -165,6 +168,11 @@ void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, dou
   shapes.push_back(attempted("power curve (after Zanevskyy)", take_off, [&] {
     return std::make_shared<const ClothoidSpline>(power_in_run(certificate, take_off));
   }));
+  // Its pieces have a rate each; the curve's own, of xi^(1/cos(D) - 2), has no bound at E1 while cos(D) is above 1/2.
+  if (shapes.back().track != nullptr &&
+      2.0 * math::cos((certificate.gamma - certificate.alpha).radians()) > 1.0) {
+    shapes.back().curvature_rate = HUGE_VAL;
+  }
   shapes.push_back(attempted("load-controlled (after Palej, Filipowska)", take_off, [&] {
     return std::make_shared<const ClothoidSpline>(load_controlled_in_run(certificate, radial_load, take_off));
   }));
@@ -353,14 +361,43 @@ class FreeShape {
 
 // --- prices ------------------------------------------------------------------------------------------
 
+bool lies_at(const std::optional<RuledBound>& bound, double value) {
+  constexpr double kAt = 1e-9;  // rounding, of the bound
+  return bound && std::fabs(value - bound->value) <= kAt * std::fabs(bound->value);
+}
+
+/// The price of the take-off speed, alone and with the letters that rules size by it.
+LetterPrice price_of_speed(const InRunShape& shape, double speed, const DropSlopes& slopes,
+                           const RuledLetters& ruled) {
+  LetterPrice row;
+  row.letter = "v";
+  row.value = speed;
+  row.price = slopes.by_speed;
+  row.dimension = Dimension::speed;
+  double price = slopes.by_speed;
+  const auto follow = [&](const char* name, double value, double by_letter,
+                          const std::optional<RuledBound>& bound) {
+    if (!lies_at(bound, value) || bound->by_speed == 0.0) return;
+    row.following.emplace_back(name);
+    price += by_letter * bound->by_speed;
+  };
+  follow("r1", shape.r1, slopes.by_r1, ruled.radius);
+  follow("t", shape.t, slopes.by_t, ruled.table);
+  if (!row.following.empty()) row.price_with_rules = price;
+  return row;
+}
+
 std::vector<LetterPrice> prices_of(const InRunShape& shape, const TakeOff& take_off,
                                    const RuledLetters& ruled) {
   const DropSlopes slopes = drop_slopes(shape, take_off);
   const auto letter = [](const char* name, double value, double price, Dimension dimension,
                          const std::optional<RuledBound>& bound = {}) {
-    LetterPrice row{name, value, price, dimension, {}, {}};
-    constexpr double kAt = 1e-9;
-    if (bound && std::fabs(value - bound->value) <= kAt * std::fabs(bound->value)) {
+    LetterPrice row;
+    row.letter = name;
+    row.value = value;
+    row.price = price;
+    row.dimension = dimension;
+    if (lies_at(bound, value)) {
       row.rule = bound->rule->id;
       row.certainty = bound->rule->certainty;
     }
@@ -370,7 +407,7 @@ std::vector<LetterPrice> prices_of(const InRunShape& shape, const TakeOff& take_
           letter("alpha", shape.alpha.radians(), slopes.by_alpha, Dimension::angle),
           letter("r1", shape.r1, slopes.by_r1, Dimension::length, ruled.radius),
           letter("t", shape.t, slopes.by_t, Dimension::length, ruled.table),
-          letter("v", take_off.speed, slopes.by_speed, Dimension::speed)};
+          price_of_speed(shape, take_off.speed, slopes, ruled)};
 }
 
 TakeOff take_off_of(const Design& design, const RedesignOptions& options, const CenterlinePtr& certificate) {
@@ -416,7 +453,12 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   result.take_off = take_off_of(design, options, track.centerline);
   const TakeOff& take_off = result.take_off;
   const double v0 = design.hill.design_speed.value_or(take_off.speed);
-  const RuledLetters ruled = ruled_letters(design, rule_measurements(design, track), v0);
+  RuledLetters ruled = ruled_letters(design, rule_measurements(design, track), v0);
+  if (design.hill.design_speed) {  // rules count with that speed, whatever the take-off's is
+    for (auto* const bound : {&ruled.radius, &ruled.table}) {
+      if (*bound) (*bound)->by_speed = 0.0;
+    }
+  }
 
   result.shapes.push_back(ridden("certificate", track.centerline, take_off));
   const bool moved = std::fabs(result.shapes.front().take_off_speed / take_off.speed - 1.0) > 1e-9;

@@ -41,7 +41,7 @@ struct RedesignShape {
   double take_off_speed = 0.0;  ///< [m/s]
   double highest_load = 0.0;    ///< per unit mass [m/s^2]
   double highest_radial = 0.0;  ///< v^2/radius [m/s^2]
-  /// Highest |d kappa/ds| between the places where curvature jumps [1/m^2].
+  /// Highest |d kappa/ds| between the places where curvature jumps [1/m^2]; infinite of a power curve, at E1.
   double curvature_rate = 0.0;
   double largest_jump =
       0.0;  ///< of the curvature, where it jumps most but for the end of the transition [1/m]
@@ -51,9 +51,13 @@ struct RedesignShape {
 
 /// What one letter of the certificate costs in drop, at the take-off speed.
 struct LetterPrice {
-  std::string letter;  ///< "gamma", "alpha", "r1", "t", "v0"
+  std::string letter;  ///< "gamma", "alpha", "r1", "t", "v"
   double value = 0.0;  ///< [SI, rad]
-  double price = 0.0;  ///< d(drop)/d(letter) [m per SI unit]
+  double price = 0.0;  ///< d(drop)/d(letter), the other letters being what they are [m per SI unit]
+  /// Of "v": the same where the letters that lie at rules which count with it (r1 = 0.14 v^2, t = 0.25 v) follow it; none
+  /// where no letter does.
+  std::optional<double> price_with_rules;
+  std::vector<std::string> following;  ///< those letters
   Dimension dimension = Dimension::length;
   std::string rule;  ///< the id of the rule that the letter lies at the bound of; may be empty
   std::optional<Certainty> certainty;  ///< of that rule
