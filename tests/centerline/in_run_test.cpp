@@ -209,6 +209,14 @@ TEST_CASE("what makes no in-run is refused with the value, the bound and a way o
   CHECK_THAT(with([](InRunShape& shape) { shape.length = 60.0; }), Contains("longer than the in-run, 60 m"));
   CHECK_THAT(with([](InRunShape& shape) { shape.transition = InRunTransition::two_radii; }),
              Contains("first_radius: 0"));
+  // Each letter that is wrong by itself, at once.
+  CHECK_THAT(with([](InRunShape& shape) {
+               shape.alpha = Angle::from_degrees(41.0);
+               shape.r1 = -103.0;
+               shape.t = 0.0;
+             }),
+             Contains("gamma: 35 deg is not above alpha, 41 deg") && Contains("r1: -103 m is not positive") &&
+                 Contains("t: 0 mm is not positive"));
 }
 
 TEST_CASE("the part of a track from a place on is that track, moved") {

@@ -504,4 +504,28 @@ TEST_CASE("how parts are split is asked for in one group") {
                                     Contains("Try: split: {bed: [220 mm, 220 mm, 250 mm]}, of a print"));
 }
 
+TEST_CASE(
+    "every letter of an in-run that is wrong by itself is told at once, and so is where its gates are "
+    "measured") {
+  const auto problems = [](const std::string& letters, const std::string& gates) {
+    return problems_of(
+        "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.03}\n"
+        "centerline: {kind: in-run, " +
+        letters + "}\nhill: {size: -142 m}\ngates: {" + gates + "}\n");
+  };
+  const std::string bad =
+      problems("gamma: 35 deg, alpha: 41 deg, r1: -103 m, t: 0 m, e1: 96 m, es: 124 m", "count: 1");
+  CHECK_THAT(bad, Contains("gamma: 35 deg is not above alpha, 41 deg"));
+  CHECK_THAT(bad, Contains("r1: -103 m is not positive"));
+  CHECK_THAT(bad, Contains("t: 0 mm is not positive"));
+  CHECK_THAT(bad, Contains("es: the start area, 124 m, is longer than the in-run, e1 96 m"));
+  CHECK_THAT(bad, Contains("size: -142 m is not positive"));
+  const std::string sound = "gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m";
+  CHECK_THAT(problems(sound, "count: 1, measuring_place: 300 m"),
+             Contains("measuring_place: 300 m before the edge no ride of this line passes") &&
+                 Contains("The in-run is 102.9 m long"));
+  CHECK_THAT(problems(sound, "count: 1, measuring_place: 102.9 m"), Contains("no ride of this line passes"));
+  CHECK_THAT(problems(sound, "count: 1, measuring_place: 102 m"), !Contains("measuring_place"));
+}
+
 }  // namespace design_problems_test

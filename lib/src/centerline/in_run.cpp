@@ -9,51 +9,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace glissade {
 namespace {
 
-void require_angles(const InRunShape& shape) {
+void check_angles(const InRunShape& shape, std::vector<Issue>& problems) {
   constexpr Angle kUpright = Angle::from_radians(kRightAngle);
   const Angle gamma = shape.gamma;
   const Angle alpha = shape.alpha;
+  const std::size_t before = problems.size();
   if (!(gamma > Angle() && gamma < kUpright)) {
-    throw InputError({"gamma", "gamma: " + angle_text(gamma) + " is out of range",
-                      "The straight of an in-run falls by more than 0 and less than 90 deg.", "35 deg"});
+    problems.push_back({"gamma", "gamma: " + angle_text(gamma) + " is out of range",
+                        "The straight of an in-run falls by more than 0 and less than 90 deg.", "35 deg"});
   }
   if (!(alpha > -kUpright && alpha < kUpright)) {
-    throw InputError({"alpha", "alpha: " + angle_text(alpha) + " is out of range",
-                      "A table lies between -90 and 90 deg.", "11 deg"});
+    problems.push_back({"alpha", "alpha: " + angle_text(alpha) + " is out of range",
+                        "A table lies between -90 and 90 deg.", "11 deg"});
   }
+  if (problems.size() != before) return;
+  const Angle turn = gamma - alpha;
   if (!(gamma > alpha)) {
     const auto [straight, table] = texts_apart(gamma, alpha);
-    throw InputError({"gamma", "gamma: " + straight + " is not above alpha, " + table,
-                      "The in-run bends upwards from its straight, gamma, to its table, alpha.",
-                      "the two exchanged: a straight is some 35 deg steep, a table 11 deg"});
-  }
-}
-
-void require_length(const char* key, double value, const std::string& what) {
-  if (value > 0.0 && std::isfinite(value)) return;
-  throw InputError({key, std::string(key) + ": " + length_text(value) + " is not positive", what, ""});
-}
-
-void require_bend(const InRunShape& shape) {
-  require_angles(shape);
-  require_length("r1", shape.r1, "It is the radius of the transition where it meets the table.");
-  if (shape.transition == InRunTransition::two_radii) {
-    require_length("first_radius", shape.first_radius, "It is the radius where the transition begins.");
-  }
-  const Angle turn = shape.gamma - shape.alpha;
-  if (shape.transition == InRunTransition::cubic && turn > CubicBend::kMostTurn) {
-    throw InputError(
+    problems.push_back({"gamma", "gamma: " + straight + " is not above alpha, " + table,
+                        "The in-run bends upwards from its straight, gamma, to its table, alpha.",
+                        "the two exchanged: a straight is some 35 deg steep, a table 11 deg"});
+  } else if (shape.transition == InRunTransition::cubic && turn > CubicBend::kMostTurn) {
+    problems.push_back(
         {"gamma", "gamma - alpha: " + angle_text(turn) + " is too much for a cubic transition",
          "A cubic parabola whose curvature grows turns by at most " + angle_text(CubicBend::kMostTurn) + ".",
          "transition: clothoid, or circle"});
   }
+}
+
+void check_length(const char* key, double value, const std::string& what, std::vector<Issue>& problems) {
+  if (value > 0.0 && std::isfinite(value)) return;
+  problems.push_back({key, std::string(key) + ": " + length_text(value) + " is not positive", what, ""});
+}
+
+std::vector<Issue> bend_problems(const InRunShape& shape) {
+  std::vector<Issue> problems;
+  check_angles(shape, problems);
+  check_length("r1", shape.r1, "It is the radius of the transition where it meets the table.", problems);
+  if (shape.transition == InRunTransition::two_radii) {
+    check_length("first_radius", shape.first_radius, "It is the radius where the transition begins.",
+                 problems);
+  }
+  return problems;
+}
+
+void refuse(std::vector<Issue> problems) {
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 /// A transition of linear curvature.
@@ -109,8 +119,14 @@ class InRun::Bend {
   Curve curve_;
 };
 
+std::vector<Issue> letter_problems(const InRunShape& shape) {
+  std::vector<Issue> problems = bend_problems(shape);
+  check_length("t", shape.t, "An in-run ends with a table.", problems);
+  return problems;
+}
+
 double transition_length(const InRunShape& shape) {
-  require_bend(shape);
+  refuse(bend_problems(shape));
   if (shape.transition == InRunTransition::cubic) {
     return CubicBend(Angle::from_radians(shape.gamma.radians() - shape.alpha.radians()), shape.r1).length();
   }
@@ -118,9 +134,9 @@ double transition_length(const InRunShape& shape) {
 }
 
 InRun::InRun(const InRunShape& shape) : shape_(shape) {
-  require_bend(shape);
-  require_length("t", shape.t, "An in-run ends with a table.");
-  require_length("length", shape.length, "An in-run leads from its start to its edge.");
+  std::vector<Issue> problems = letter_problems(shape);
+  check_length("length", shape.length, "An in-run leads from its start to its edge.", problems);
+  refuse(std::move(problems));
   bend_ = std::make_unique<const Bend>(shape);
   e2_ = shape.length - shape.t;
   e1_ = e2_ - bend_->length();

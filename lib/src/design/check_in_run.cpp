@@ -39,12 +39,35 @@ void check_lengths(const InRunDesign& in_run, Collected& findings) {
   }
 }
 
+/// What the shape calls "length" is e1 in the file.
+/// @param beside  what a problem of which hides this one
+void report_letter(Issue issue, const std::string& beside, Collected& findings) {
+  const std::string key = issue.where == "length" ? "e1" : issue.where;
+  issue.where.clear();
+  report(findings, {"centerline." + key, beside}, std::move(issue));
+}
+
+/// Letters that are wrong by themselves, all of them, before any of them are held against each other.
+void check_letters(const InRunDesign& in_run, Collected& findings) {
+  for (const Issue& issue : letter_problems(in_run.shape())) {
+    // An alpha that cannot be read is no angle to hold gamma against.
+    report_letter(issue, issue.where == "gamma" ? "centerline.alpha" : "centerline." + issue.where, findings);
+  }
+  const std::optional<double> area = in_run.start_area();
+  if (!(in_run.es && in_run.e1 && *in_run.e1 > 0.0 && *area > *in_run.e1)) return;
+  const auto [start_area, whole] = texts_apart(*area, *in_run.e1, &length_text);
+  report(findings, {"centerline.es", "centerline.e1"},
+         {"", "es: the start area, " + start_area + ", is longer than the in-run, e1 " + whole,
+          "Gates lie on the straight, above the transition.", "a shorter start area"});
+}
+
 }  // namespace
 
 void check_in_run(const Design& design, Collected& findings) {
   const InRunDesign& in_run = design.centerline.in_run;
   const std::size_t before = findings.size();
   check_lengths(in_run, findings);
+  check_letters(in_run, findings);
   if (findings.size() != before || !(in_run.longest() > 0.0)) return;
   try {
     const InRun track(in_run.shape());
@@ -58,12 +81,7 @@ void check_in_run(const Design& design, Collected& findings) {
               "a shorter start area, a longer in-run, or a smaller r1"});
     }
   } catch (const InputError& error) {
-    for (Issue issue : error.issues()) {
-      // What the shape calls "length" is e1 in the file.
-      const std::string key = issue.where == "length" ? "e1" : issue.where;
-      issue.where.clear();
-      report(findings, {"centerline." + key, "centerline"}, std::move(issue));
-    }
+    for (const Issue& issue : error.issues()) report_letter(issue, "centerline", findings);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 
 #include <memory>
@@ -29,6 +30,9 @@ struct InRunShape {
 
   friend bool operator==(const InRunShape&, const InRunShape&) = default;
 };
+
+/// @return every letter of a shape that is out of its range, its `length` aside: `where` is the letter
+[[nodiscard]] std::vector<Issue> letter_problems(const InRunShape& shape);
 
 /// @return arc length of the transition of a shape, from E1 to E2 [m]; its `length` is not asked
 /// @throws InputError as InRun, but for the length
