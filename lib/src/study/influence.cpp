@@ -199,8 +199,8 @@ bool are_dependent(const PairCounts& counts) {
   const auto freedom = static_cast<double>((counts.classes - 1) * (counts.classes - 1));
   // The cube root of a chi-squared over its degrees is nearly normal (Wilson & Hilferty 1931).
   const double spread = 2.0 / (9.0 * freedom);
-  constexpr double kSurprise =
-      4.0;  // standard errors, taste: one of 30 000 pairs is told dependent by chance
+  // Told dependent by chance: one of 30 000 pairs.
+  constexpr double kSurprise = 4.0;  // taste, in standard errors
   return (math::cbrt(chi_squared / freedom) - (1.0 - spread)) / std::sqrt(spread) > kSurprise;
 }
 
