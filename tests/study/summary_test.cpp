@@ -90,6 +90,34 @@ TEST_CASE("best points are the best of all, with their inputs") {
   CHECK(summary.highest[0][0].inputs == std::vector<std::string>{"25", "0"});
 }
 
+TEST_CASE("an input told again in SI is no figure of its own, and dependent inputs have no share") {
+  const TempDir place;
+  // Fewer points arrive where friction and speed are both unfavourable.
+  const auto figures = [](const Design& design, const Track& track) {
+    const double speed = design.body.entry_speed;
+    const bool told = speed < 1.5 || track.motion.body().friction.coefficient() < 0.2;
+    return std::vector<Quantity>{
+        {"entry_speed_m_per_s", speed},
+        {"exit_speed_m_per_s", track.motion.exit_speed()},
+        {"travel_time_s", told ? std::optional(track.motion.travel_time()) : std::nullopt}};
+  };
+  const Study study{
+      DesignSource::parse(kDesign, "slide.yaml"),
+      {},
+      Plan({vary("body.friction_angle=5deg:20deg:41"), vary("body.entry_speed=1km/h:9km/h:41")}),
+      false,
+      {},
+      figures};
+  (void)run(study, {.directory = place.path()});
+  const Summary summary = summarise(Results::open(place.path()));
+  CHECK(summary.varying == std::vector<std::size_t>{1, 2});
+  REQUIRE(summary.influences.size() == 4);
+  for (const Influence& influence : summary.influences) {
+    CHECK(influence.dependent_here == (influence.quantity == 2));
+    CHECK(influence.first_order.has_value() == (influence.quantity == 1));
+  }
+}
+
 TEST_CASE("maps and bands count every point once") {
   const TempDir place;
   const Summary summary =
