@@ -64,7 +64,9 @@ std::vector<std::string> row_of(const Design& design, const Track& track, const 
                                   length_text(check.where, 3) + friction, "kept"};
   if (!check.kept()) {
     std::string broken = "broken";
-    if (std::isfinite(check.violation)) {
+    if (check.leaves_track) {
+      broken += ": leaves the track";
+    } else if (std::isfinite(check.violation)) {
       broken += " by " + quantity_text(check.violation, check.limit.dimension());
     }
     row[4] = emphasised(broken, Emphasis::bad);

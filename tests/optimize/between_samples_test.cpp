@@ -120,4 +120,33 @@ TEST_CASE("referee: slopes, loads and speeds that are greatest between samples a
   }
 }
 
+TEST_CASE("referee: where a body leaves its track is looked at, on the side that it came from", "[limits]") {
+  const double rest =
+      -0.8;  // curvature after the straight, or at the end of a bend: far too much for the body
+  const double steep = 0.5;
+  for (const bool jump : {true, false}) {
+    CAPTURE(jump);
+    const auto track = std::make_shared<const ClothoidSpline>(
+        Angle::from_radians(steep),
+        std::vector<ClothoidSegment>{{7.3, 0.0, 0.0}, {1.0, jump ? rest : 0.0, rest}});
+    Problem problem;
+    problem.endpoints = track->endpoints();
+    problem.body.friction = Friction::from_coefficient(0.1);
+    const Motion motion(track, problem.body, problem.gravity);
+    REQUIRE(motion.lift_off());
+    CHECK((motion.distance() == 7.3) == jump);
+    problem.limits.speed.highest = motion.exit_speed() * (1.0 - 1e-5);
+    const std::vector<LimitCheck> checks = check_limits(problem, track);
+    const LimitCheck& speed = check_of(checks, {LimitId::speed, Bound::highest});
+    CHECK_FALSE(speed.kept());
+    CHECK(speed.reached == Approx(motion.exit_speed()).epsilon(1e-12));
+    CHECK(speed.where == Approx(motion.distance()).epsilon(1e-12));
+    const LimitCheck& load = check_of(checks, {LimitId::lowest_normal_load, Bound::lowest});
+    CHECK(load.reached == Approx(motion.lowest_load().normal_load).epsilon(1e-9).margin(1e-6));
+    CHECK(load.reached > -1e-6);
+    CHECK(load.leaves_track);
+    CHECK_FALSE(load.kept());
+  }
+}
+
 }  // namespace between_samples_test

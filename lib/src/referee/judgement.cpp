@@ -8,6 +8,7 @@
 #include "referee/watches.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -117,6 +118,22 @@ void add_extreme_sights(std::vector<Sight>& sights, const std::function<Sight(do
   }
 }
 
+/// What a ride that ends before the finish shows where it ends, on the side that it came from: what the track does beyond a
+/// jump of curvature there, the body does not ride. A law's own quantity is what it is where the law ends (Motion::highest()).
+Sight sight_of_end(const Motion& motion, const Watches& watches) {
+  const double end = motion.distance();
+  const auto measures_at = [&](double s) {
+    return watches.measures(motion.at(s), motion.centerline().at(s));
+  };
+  const Watches::Measures there = measures_at(end);
+  if (end == 0.0) return {end, there};
+  Watches::Measures measures = measures_at(std::nextafter(end, 0.0));
+  for (std::size_t k = Watches::kFirstOfLaw; motion.law_end() && k < measures.size(); ++k) {
+    measures[k] = std::max(measures[k], there[k]);
+  }
+  return {end, measures};
+}
+
 /// Shows a ride at the points that it reaches, and wherever between them something that limits ask for is greatest or least.
 void show(const Motion& motion, const std::vector<CenterlinePoint>& points, Watches& watches) {
   const auto sight_at = [&](const CenterlinePoint& point) -> Sight {
@@ -124,10 +141,12 @@ void show(const Motion& motion, const std::vector<CenterlinePoint>& points, Watc
     return {point.arc_length, watches.measures(state, point)};
   };
   std::vector<Sight> sights;
+  const bool arrived = motion.arrived();
   for (const CenterlinePoint& point : points) {
     if (point.arc_length > motion.distance()) break;
-    sights.push_back(sight_at(point));
+    if (arrived || point.arc_length < motion.distance()) sights.push_back(sight_at(point));
   }
+  if (!arrived) sights.push_back(sight_of_end(motion, watches));
   add_extreme_sights(sights, [&](double s) { return sight_at(motion.centerline().at(s)); });
   for (const Sight& seen : sights) watches.at_measures(seen.measures, seen.s);
 }
@@ -176,6 +195,7 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
     show(motion, points, watches);
     if (motion.arrived()) watches.at_exit_speed(motion.exit_speed(), end);
     if (motion.stall()) watches.at_stall(motion.stall()->arc_length);
+    if (motion.lift_off()) watches.at_lift_off();
   }
   watches.ride_at({});
   watches.at_end(*track);

@@ -147,6 +147,12 @@ void Watches::at_stall(double s) {
   see(LimitId::exit_speed, 0.0, s);
 }
 
+void Watches::at_lift_off() {
+  for (Watch& watch : watches_) {
+    if (watch.check().limit.id == LimitId::lowest_normal_load) watch.see_lift_off();
+  }
+}
+
 void Watches::at_exit_speed(double exit_speed, const CenterlinePoint& end) {
   see(LimitId::exit_speed, exit_speed, end.arc_length);
   if (!problem_.limits.match_belt) return;

@@ -7,6 +7,7 @@
 #include "referee/judgement.hpp"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Watch {
 
   void see(double value, double where, std::optional<FrictionLevel> friction = {},
            const std::optional<EnvelopePlace>& closest = {});
+  /// The body leaves the track, which a lowest load is to prevent.
+  void see_lift_off() { check_.leaves_track = true; }
   [[nodiscard]] bool seen() const { return seen_; }
   [[nodiscard]] const LimitCheck& check() const { return check_; }
   [[nodiscard]] const std::vector<Broken>& broken() const { return broken_; }
@@ -41,6 +44,7 @@ class Watches {
  public:
   /// What limits are held against wherever the body rides: normal load, load by curvature, speed, depth, wear of the floor.
   using Measures = std::array<double, 5>;
+  static constexpr std::size_t kFirstOfLaw = 3;  // Measures: depth and wear are a law's
 
   /// @param chord  from the start of the track to its finish [m]
   Watches(const Problem& problem, double chord);
@@ -60,6 +64,8 @@ class Watches {
   void at_exit_speed(double exit_speed, const CenterlinePoint& end);
   /// The body comes to a stand there, before the finish, and gets no farther.
   void at_stall(double s);
+  /// The body leaves the track before the finish: it has no load from there on, whatever the least was until then.
+  void at_lift_off();
   void at_end(const Centerline& track);
   /// @param in,out  lengths of the straights that the track starts and ends with
   void at_leads(double in, double out, double length);

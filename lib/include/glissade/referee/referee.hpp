@@ -31,17 +31,19 @@ struct LimitCheck {
   std::optional<FrictionLevel> friction = {};
   /// Of a clearance measured from an envelope: the part of it that comes closest.
   std::optional<EnvelopePlace> closest = std::nullopt;
+  /// Of the lowest load: the body leaves the track, at some friction. Up to there the least load may well be within the bound.
+  bool leaves_track = false;
 
-  /// @return violation <= kLimitAccuracy * scale
-  [[nodiscard]] bool kept() const { return violation <= kLimitAccuracy * scale; }
+  /// @return violation <= kLimitAccuracy * scale, and the body does not leave the track that is to hold it
+  [[nodiscard]] bool kept() const { return !leaves_track && violation <= kLimitAccuracy * scale; }
 };
 
 /// Holds any track against the limits of a problem, sampled ten times finer than optimize() looks: each limit
 /// with its worst value and the place, at every friction of the range. Where a body of the range does not
-/// arrive, limits on its motion are held against the part that it rides, and "arrival_at_low_friction" or
+/// arrive, limits on its motion are held against the part that it rides, its end included, and "arrival_at_low_friction" or
 /// "arrival_at_high_friction" tells how far it comes; at the nominal friction Motion tells.
 /// @param track  leads to problem.finish; its own run counts towards the finish
-/// @throws InputError if there is no track, or as optimize()
+/// @throws InputError if there is no track, or as require_judgeable()
 [[nodiscard]] std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track);
 
 }  // namespace glissade
