@@ -144,6 +144,39 @@ TEST_CASE("stations of a track, read back with slope angles and curvatures, are 
   }
 }
 
+TEST_CASE(
+    "a track that is drawn leads up, or past what is in its way: it is judged, and frozen it is judged the "
+    "same") {
+  const TempDir directory;
+  const std::string rising =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.1}\n"
+      "centerline: {kind: segments, entry_slope_angle: 30 deg, segments: [{length: 1 m}, {to_slope_angle: "
+      "-40 deg, "
+      "radius: 2 m}, {length: 3 m}]}\nlimits: ";
+  for (const std::string limits :
+       {"{}", "{highest_normal_load: 1 g}", "{arc_length: {highest: 1 m}}",
+        "{half_planes: [{line: [[-1 m, -0.1 m], [9 m, -0.1 m]], stay: below}], waypoints: [[0 m, 0 m]]}",
+        "{stay_above: [{line: [[-1 m, 0.3 m], [9 m, 0.3 m]], clearance: 20 mm}]}"}) {
+    INFO(limits);
+    const Design design = parse_design(rising + limits + "\n", directory / "design.yaml");
+    const Track track = solve(design);
+    CHECK(track.endpoints.drop < 0.0);
+    REQUIRE(track.motion.stall());
+    write_frozen_design(directory / "frozen.yaml", design, track);
+    const Design frozen = read_design(directory / "frozen.yaml");
+    CHECK(frozen.track.finish_given);
+    const Track again = solve(frozen);
+    REQUIRE(again.limit_checks.size() == track.limit_checks.size());
+    for (std::size_t i = 0; i < track.limit_checks.size(); ++i) {
+      CHECK(again.limit_checks[i].limit == track.limit_checks[i].limit);
+      CHECK(again.limit_checks[i].reached ==
+            Approx(track.limit_checks[i].reached).epsilon(1e-9).margin(1e-9));
+      CHECK(again.limit_checks[i].kept() == track.limit_checks[i].kept());
+    }
+    CHECK(limits_problem(frozen, again).has_value() == (limits != "{}"));
+  }
+}
+
 TEST_CASE("a frozen design is no CSV file") {
   const TempDir directory;
   const Design design = parse_design(cases().front().text, directory / "design.yaml");

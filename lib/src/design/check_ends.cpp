@@ -218,7 +218,7 @@ void check_match(const Design& design, Collected& findings) {
             "What lands has no speed along such a belt.", "a direction between -90 and 90 deg"});
     return;
   }
-  if (design.track.free_finish != FinishKind::point) return;
+  if (design.track.free_finish != FinishKind::point || is_drawn(design.centerline.kind)) return;
   const double most = speed_of_free_fall(design) * cosine;
   const double least = match.speed * (1.0 - match.within);
   if (!(least > most)) return;

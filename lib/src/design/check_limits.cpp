@@ -127,7 +127,8 @@ void check_lengths(const Design& design, Collected& findings) {
   if (!longest) return;
   const double distance = norm(design.track.finish - design.track.start);
   const auto [most, straight] = texts_apart(*longest, distance, &length_text);
-  if (design.track.free_finish == FinishKind::point && *longest < distance) {
+  const bool searched = design.track.finish_given && !is_drawn(design.centerline.kind);
+  if (searched && design.track.free_finish == FinishKind::point && *longest < distance) {
     report(findings, {path("arc_length"), "track"},
            {"", "arc_length: at most " + most + " is shorter than the straight line, " + straight,
             "No track is.", ""});
@@ -342,7 +343,8 @@ void check_clearances(const Design& design, Collected& findings) {
   check_headroom(*design.limits, findings);
   const std::size_t before = findings.size();
   check_shapes(*design.limits, findings);
-  if (findings.size() != before || !design.track.finish_given) return;
+  // The ends of a track that is drawn are places of it like any other: the referee tells of them, whether or not a finish is given.
+  if (findings.size() != before || !design.track.finish_given || is_drawn(design.centerline.kind)) return;
   for (const NamedPoint& point : fixed_points(design)) check_fixed_point(*design.limits, point, findings);
   check_waypoints_to_edge(design, findings);
   check_waypoint_order(design, findings);

@@ -28,14 +28,14 @@ void check_coordinates(const Vec3& position, const std::string& key_path, Collec
 
 bool may_climb(const Design& design) {
   const CenterlineKind kind = design.centerline.kind;
-  if (is_drawn(kind)) return true;
   return (kind == CenterlineKind::fastest || kind == CenterlineKind::straight) &&
          design.body.entry_speed > 0.0;
 }
 
 void check_drop(const Design& design, Collected& findings) {
   const double drop = drop_of(design.track);
-  if (drop > 0.0) return;
+  // A track that is drawn leads anywhere: its ride tells how far the body comes.
+  if (drop > 0.0 || is_drawn(design.centerline.kind)) return;
   const std::vector<std::string> paths = {"track.finish.z", "track.start.z",    "track.finish",
                                           "track.start",    "body.entry_speed", "centerline"};
   const std::string place = drop < 0.0 ? metres(-drop) + " above the start" : "level with the start";

@@ -217,7 +217,7 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
 namespace glissade {
 
 std::vector<LimitCheck> check_limits(const Problem& problem, const CenterlinePtr& track) {
-  require_valid(problem);
+  require_judgeable(problem);
   if (!track) throw InputError({"", "there is no track to hold against the limits", "", ""});
   return referee::judge_track(problem, track, referee::kRefereeSamples, referee::BrokenRides::judged).checks;
 }

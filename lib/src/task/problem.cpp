@@ -150,9 +150,12 @@ void check_obstacles(const Limits& limits, Checker& check) {
 
 }  // namespace
 
-void require_valid(const Problem& problem) {
+namespace {
+
+/// @param searched  whether a track is to be found; one that is given leads where it leads
+void require_sound(const Problem& problem, bool searched) {
   Checker check;
-  check_ends(problem, check);
+  if (searched) check_ends(problem, check);
   check_body(problem, check);
   check_objective(problem, check);
   const Limits& limits = problem.limits;
@@ -163,6 +166,16 @@ void require_valid(const Problem& problem) {
   check.range("finish.free_drop", problem.finish.free_drop);
   check_obstacles(limits, check);
   check.finish();
+}
+
+}  // namespace
+
+void require_valid(const Problem& problem) {
+  require_sound(problem, true);
+}
+
+void require_judgeable(const Problem& problem) {
+  require_sound(problem, false);
 }
 
 }  // namespace glissade
