@@ -223,6 +223,17 @@ TEST_CASE("a quantity is written as the shortest decimal that reads as the same 
   }
 }
 
+TEST_CASE("a half-plane is written by the points that it was given by") {
+  const Design design = parse_design(
+      sound_design_with(
+          "centerline: {kind: fastest}",
+          "centerline: {kind: fastest}\nlimits: {half_planes: [{line: [[0 m, -0.5 m], [10 m, -5.1 m]], "
+          "stay: above}]}"),
+      "d.yaml");
+  CHECK(design_text(design).find("line: [[0 m, -0.5 m], [10 m, -5.1 m]]") != std::string::npos);
+  check_written(design);
+}
+
 TEST_CASE("widths along the track are written back as they were read") {
   const Design design = parse_design(
       sound_design_with("width: 400 mm", "width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}]"),

@@ -139,6 +139,7 @@ std::optional<HalfPlane> read_half_plane(const Value& value, Findings& findings)
     return {};
   }
   plane.point = line[0];
+  plane.second = line[1];
   plane.forbidden = *forbidden;
   return plane;
 }

@@ -174,7 +174,8 @@ std::string centerline(const CenterlineDesign& design, const std::filesystem::pa
   return group.lines();
 }
 
-/// A line of the half-plane, far enough between its points for its direction to survive their rounding.
+/// A line of the half-plane: the points that it was given by, or else two far enough apart for its direction to survive their
+/// rounding.
 std::string half_plane(const HalfPlane& plane) {
   const double away = 1.0 + std::fabs(plane.point.x) + std::fabs(plane.point.y);
   const double far = std::ldexp(1.0, std::ilogb(away) + 1);
@@ -182,7 +183,7 @@ std::string half_plane(const HalfPlane& plane) {
   const bool upright = plane.forbidden.y == 0.0;
   const bool positive = upright ? plane.forbidden.x > 0.0 : plane.forbidden.y > 0.0;
   Group group;
-  group.add("line", points({plane.point, plane.point + along}));
+  group.add("line", points({plane.point, plane.second.value_or(plane.point + along)}));
   group.add("stay", upright ? (positive ? "left" : "right") : (positive ? "below" : "above"));
   group.add_unless(0.0, "clearance", plane.clearance, Dimension::length);
   return group.inlined();

@@ -28,6 +28,8 @@ struct HalfPlane {
   Vec2 forbidden;  ///< direction square to the line, towards the forbidden side; any length > 0
   double clearance =
       0.0;  ///< distance from the envelope to the line >= clearance, on the free side [m]; >= 0
+  /// A second point of the line, as a design gave it: a file written anew has it again. The limit does not ask for it.
+  std::optional<Vec2> second = std::nullopt;
 
   friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
 };
