@@ -9,6 +9,8 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <boost/math/special_functions/ellint_1.hpp>
 
@@ -136,6 +138,90 @@ TEST_CASE("lift-off: down the outside of a circle without friction at cos(zeta) 
     CHECK(std::fabs(motion.at(motion.distance()).normal_load) <= 1e-11 * kGravity);
     CHECK_THROWS_WITH(motion.at(radius * 1.5), Catch::Matchers::Contains("not on the ride"));
   }
+}
+
+namespace {
+
+/// Squared speed and loss by friction at the end of a track of one rate of curvature each, by small steps of the classical
+/// Runge-Kutta method with c |N|.
+std::pair<double, double> held_ride(double zeta, const std::vector<ClothoidSegment>& segments,
+                                    const Body& body) {
+  double v = body.entry_speed * body.entry_speed;
+  double loss = 0.0;
+  for (const ClothoidSegment& segment : segments) {
+    constexpr int kSteps = 20000;
+    const double ds = segment.length / kSteps;
+    const auto curvature = [&](double s) {
+      return segment.entry_curvature +
+             (segment.exit_curvature - segment.entry_curvature) * s / segment.length;
+    };
+    const auto slope = [&](double s) { return zeta - 0.5 * s * (segment.entry_curvature + curvature(s)); };
+    const auto rubbed = [&](double s, double squared) {
+      return body.friction.coefficient() * std::fabs(kGravity * std::cos(slope(s)) + curvature(s) * squared);
+    };
+    const auto rate = [&](double s, double squared) {
+      return 2.0 * (kGravity * std::sin(slope(s)) - rubbed(s, squared) - body.drag_per_metre * squared);
+    };
+    for (int i = 0; i < kSteps; ++i) {
+      const double s = ds * i;
+      const double k1 = rate(s, v);
+      const double k2 = rate(s + 0.5 * ds, v + 0.5 * ds * k1);
+      const double k3 = rate(s + 0.5 * ds, v + 0.5 * ds * k2);
+      const double k4 = rate(s + ds, v + ds * k3);
+      const double before = rubbed(s, v);
+      const double middle = rubbed(s + 0.5 * ds, v + 0.5 * ds * k2);
+      v += ds / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+      loss += ds / 6.0 * (before + 4.0 * middle + rubbed(s + ds, v));
+    }
+    zeta = slope(segment.length);
+  }
+  return {v, loss};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "held from both sides: a body that would leave the track rides on, and rubs by the size of its load") {
+  const std::vector<ClothoidSegment> segments = {
+      {4.0, 0.0, 0.0}, {1.0, -0.6, -0.6}, {2.0, -0.6, 0.9}, {1.0, -0.3, -0.3}, {3.0, 0.2, 0.2}};
+  const double entry = 0.4;
+  for (const double drag : {0.0, 0.02}) {
+    CAPTURE(drag);
+    Body rider = body(0.15, 3.0, drag);
+    const auto way = track(entry, segments);
+    REQUIRE(Motion(way, rider).lift_off());
+    rider.held = true;
+    const Motion motion(way, rider);
+    REQUIRE(motion.arrived());
+    CHECK(motion.lowest_load().normal_load < -1.0);
+    const auto [v, loss] = held_ride(entry, segments, rider);
+    CHECK(motion.exit_speed() * motion.exit_speed() == Approx(v).epsilon(1e-8));
+    const MotionState end = motion.at(motion.distance());
+    CHECK(end.friction_loss == Approx(loss).epsilon(1e-7));
+    const double energy = 0.5 * v + end.friction_loss + end.drag_loss;
+    CHECK(energy == Approx(kGravity * way->endpoints().drop + 0.5 * 9.0).epsilon(1e-8));
+    // In between as at the end: a ride to there is that ride.
+    const MotionState middle = motion.at(4.5);
+    CHECK(middle.normal_load < 0.0);
+    CHECK(middle.friction_loss > motion.at(4.0).friction_loss);
+  }
+}
+
+TEST_CASE("held from both sides: where the load stays positive nothing changes, and a body may still stall") {
+  const auto valley = track(1.0, {{2.0, 0.0, 0.0}, {4.0, 0.45, 0.45}});
+  Body rider = body(0.2, 0.0);
+  const Motion free(valley, rider);
+  rider.held = true;
+  const Motion held(valley, rider);
+  CHECK(held.distance() == free.distance());
+  CHECK(held.travel_time() == free.travel_time());
+  CHECK(held.exit_speed() == free.exit_speed());
+  // Over a crest on which it presses upwards, and up a slope.
+  const auto hill = track(0.9, {{3.0, 0.0, 0.0}, {0.3, -1.5, -1.5}, {3.0, 0.8, 0.8}, {60.0, 0.0, 0.0}});
+  const Motion stalls(hill, rider);
+  CHECK(stalls.lowest_load().normal_load < 0.0);
+  REQUIRE(stalls.stall());
+  CHECK(stalls.exit_speed() == 0.0);
 }
 
 TEST_CASE("lift-off: in a loop that the body enters too slowly") {

@@ -68,6 +68,7 @@ Equation equation_of(const Centerline& centerline, const Body& body, double grav
   // Without drag there is no air to feel.
   equation.head_wind = body.drag_per_metre == 0.0 ? 0.0 : body.head_wind;
   equation.changes = body.friction_changes;
+  equation.held = body.held;
   if (!body.law) return equation;
   equation.gain = 2.0 / body.law->inertia();
   equation.height = body.law->centre_height();

@@ -178,10 +178,21 @@ Stretch Stretch::cut_at(double s) const {
   return part;
 }
 
-Panel::Panel(const Equation& equation, const Stretch& covered, double v_at_anchor)
+Stretch Stretch::beyond(double s) const {
+  Stretch part = *this;
+  const double passed = sigma(s);
+  part.begin = s;
+  part.width = width - passed;
+  part.anchor_root = anchor_root + passed;
+  return part;
+}
+
+Panel::Panel(const Equation& equation, const Stretch& covered, double v_at_anchor, double side_pressed)
     : stretch(covered),
-      friction(equation.changes.empty() ? equation.mu
-                                        : equation.friction_at(0.5 * (covered.begin + covered.end))),
+      friction(side_pressed * (equation.changes.empty()
+                                   ? equation.mu
+                                   : equation.friction_at(0.5 * (covered.begin + covered.end)))),
+      pressing(side_pressed),
       anchor_v(v_at_anchor) {
   const chebyshev::Values& x = chebyshev::nodes();
   Nodes nodes;
@@ -261,7 +272,8 @@ void Panel::weigh(const Equation& equation, const Nodes& nodes) {
     stretched_load[i] = load[i] * stretching;
     stretched_v[i] = v[i] * stretching;
   }
-  const bool plain = equation.height == 0.0 && equation.closed() && equation.changes.empty();
+  const bool plain =
+      equation.height == 0.0 && equation.closed() && equation.changes.empty() && pressing > 0.0;
   chebyshev::Values pressed;  // c N ds_c/dsigma over loss_friction()
   if (!plain) weigh_law(equation, nodes, pressed, stretched_v);
   if (!std::isfinite(stretched_load[0])) {
@@ -277,7 +289,7 @@ void Panel::weigh(const Equation& equation, const Nodes& nodes) {
 void Panel::weigh_law(const Equation& equation, const Nodes& nodes, chebyshev::Values& pressed,
                       chebyshev::Values& stretched_v) {
   const chebyshev::Values& x = chebyshev::nodes();
-  const double share = equation.changes.empty() ? 1.0 : friction;
+  const double share = equation.changes.empty() ? pressing : friction;
   if (equation.height > 0.0) path_rate.emplace();
   for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
     const double sigma = stretch.width * x[i];
@@ -325,12 +337,14 @@ LawState Panel::law_state(const Equation& equation, double sigma) const {
   const double s = stretch.arc_length(sigma);
   const Direction direction = direction_within(equation, stretch, s);
   const double squared_speed = v_for(equation, sigma, direction.slope_angle);
-  return equation.law_state(s, direction, squared_speed, equation.load(direction, squared_speed), friction);
+  return equation.law_state(s, direction, squared_speed, equation.load(direction, squared_speed),
+                            std::fabs(friction));
 }
 
 LawState Panel::law_state_at(const Equation& equation, std::size_t node) const {
   const double s = stretch.arc_length(stretch.width * chebyshev::nodes()[node]);
-  return equation.law_state(s, direction_within(equation, stretch, s), v[node], load[node], friction);
+  return equation.law_state(s, direction_within(equation, stretch, s), v[node], load[node],
+                            std::fabs(friction));
 }
 
 double Panel::path_rate_at(const Equation& equation, double sigma) const {

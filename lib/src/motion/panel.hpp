@@ -25,6 +25,7 @@ struct Equation {
   double side = 1.0;         ///< -1 below a hood: the sign of the load
   const Law* law = nullptr;  ///< where c depends on the speed; none otherwise
   std::vector<FrictionChange> changes;
+  bool held = false;  ///< Body::held
 
   /// What is added to the closed form: dv/ds = ... + push + rate v, linear about some v.
   struct Extra {
@@ -93,6 +94,8 @@ struct Stretch {
   [[nodiscard]] Stretch half_beyond() const;
   /// @return the part from the begin to s; for a stretch anchored there
   [[nodiscard]] Stretch cut_at(double s) const;
+  /// @return the part from s on; for a stretch anchored at its begin
+  [[nodiscard]] Stretch beyond(double s) const;
 };
 
 /// Time and energies that a ride adds up.
@@ -109,7 +112,9 @@ struct RideSums {
 /// A stretch of a ride as polynomials in sigma.
 struct Panel {
   Stretch stretch;
-  double friction = 0.0;  ///< mu, the same on all of it
+  /// mu, the same on all of it; negative where a held body presses upwards, N < 0: c N then slows it down all the same.
+  double friction = 0.0;
+  double pressing = 1.0;  ///< the sign of that, so that pressing N = |N|
   double anchor_zeta = 0.0;
   double anchor_v = 0.0;
   double kept = 1.0;     ///< share of v at the anchor that is left at the other end
@@ -133,7 +138,8 @@ struct Panel {
   std::optional<chebyshev::Values>
       mean_rate;  ///< of what v keeps beyond the closed form, where it is not closed
 
-  Panel(const Equation& equation, const Stretch& covered, double v_at_anchor);
+  /// @param side_pressed  1, or -1 where a held body presses upwards
+  Panel(const Equation& equation, const Stretch& covered, double v_at_anchor, double side_pressed = 1.0);
 
   /// @return true if the body rests at the anchor, and v is small of first order in the distance from it
   [[nodiscard]] bool at_rest() const { return anchor_v == 0.0 && stretch.anchor_root == 0.0; }

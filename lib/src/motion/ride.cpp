@@ -148,12 +148,15 @@ class Integrator {
   [[nodiscard]] bool starts();
   [[nodiscard]] Direction direction(double s) const { return equation().centerline->direction(s); }
   [[nodiscard]] Stretch first_stretch(double end) const;
-  void slide(const Stretch& whole, int halvings);
+  void slide(Stretch whole, int halvings);
+  std::optional<Stretch> slide_on(const Stretch& whole, int halvings);
+  void press(const Stretch& stretch);
   [[nodiscard]] Verdict judge(const Panel& panel, const Task& task, const Miss& miss) const;
   [[nodiscard]] Verdict judge_events(const Panel& panel, bool may_split) const;
   [[nodiscard]] Verdict judge_finish(const Panel& panel, bool may_split) const;
   [[nodiscard]] bool rests_at_finish(const Panel& panel) const;
   [[nodiscard]] Sign load_sign(const Panel& panel) const;
+  [[nodiscard]] chebyshev::Values pressed(const Panel& panel) const;
   void append(const Panel& panel);
   void come_to_rest(const Stretch& stretch, double s, int deepest);
   void stall(const Panel& panel);
@@ -172,6 +175,7 @@ class Integrator {
   double v_;        // where the next panel begins
   double v_terms_;  // size of all terms that made up v_, its rounding is in proportion
   RideSums sums_;
+  double pressing_ = 1.0;        // -1 where a held body presses upwards
   std::size_t panels_left_ = 0;  // that may still be tried
   bool ended_ = false;
 };
@@ -192,13 +196,15 @@ RideRecord Integrator::run() {
 
 bool Integrator::starts() {
   if (v_ > 0.0) return true;
-  const double mu = equation().friction_at(0.0);
   const Direction start =
       equation().height == 0.0 ? Direction{equation().centerline->slope_angle(0.0), 0.0} : direction(0.0);
-  const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + mu);
+  const bool hangs = equation().held && equation().load(start, 0.0) < 0.0;
+  const double mu = (hangs ? -1.0 : 1.0) * equation().friction_at(0.0);
+  const double rounding = kPushRounding * 2.0 * equation().gravity * (1.0 + std::fabs(mu));
   // Where the valley is too tight at once, the ride ends for that.
   if (equation().path_rate(start) <= kTight || equation().slope_at_rest(start, mu) > rounding) return true;
-  record_.stall = Stall{0.0, Angle::from_radians(std::max(0.0, math::atan(mu) - start.slope_angle))};
+  record_.stall =
+      Stall{0.0, Angle::from_radians(std::max(0.0, math::atan(std::fabs(mu)) - start.slope_angle))};
   close(0.0, 0.0);
   return false;
 }
@@ -207,6 +213,7 @@ Stretch Integrator::first_stretch(double end) const {
   const bool from_root = v_ == 0.0 || equation().centerline->unbounded_curvature_at_start();
   if (from_root) return Stretch::root(0.0, end, 0.0);
   // Near the start v = v0 + push s: as from rest, but from a point v0 / push further up.
+  // Only where to begin a panel finely: of a held body that presses upwards, roughly.
   const double push =
       equation().slope_at_rest({equation().centerline->slope_angle(0.0), 0.0}, equation().friction_at(0.0));
   const double way_from_rest = v_ / push;
@@ -214,7 +221,27 @@ Stretch Integrator::first_stretch(double end) const {
   return slow_start ? Stretch::root(0.0, end, std::sqrt(way_from_rest)) : Stretch::even(0.0, end);
 }
 
-void Integrator::slide(const Stretch& whole, int halvings) {
+void Integrator::slide(Stretch whole, int halvings) {
+  if (!equation().held) {
+    slide_on(whole, halvings);
+    return;
+  }
+  press(whole);
+  // Where the load of a held body changes its sign, it presses on the other side from there on.
+  while (const std::optional<Stretch> rest = slide_on(whole, halvings)) {
+    pressing_ = -pressing_;
+    whole = *rest;
+  }
+}
+
+/// The side on which a held body presses where a stretch begins; where there is no load, that of before.
+void Integrator::press(const Stretch& stretch) {
+  const double load = pressing_ * integrated(stretch, v_).load.front();
+  if (load < -kLoadRounding * equation().gravity) pressing_ = -pressing_;
+}
+
+/// @return what is left of the stretch where a held body has come to press on the other side; nothing otherwise
+std::optional<Stretch> Integrator::slide_on(const Stretch& whole, int halvings) {
   std::vector<Task> tasks{{whole, false, 0, {}}};
   std::optional<double> lift_off;
   std::optional<double> too_tight;
@@ -240,16 +267,18 @@ void Integrator::slide(const Stretch& whole, int halvings) {
         append(panel);
         break;
       case Verdict::stall:
-        return stall(panel);
+        stall(panel);
+        return {};
       case Verdict::rest_at_finish:
         come_to_rest(task.stretch, length_, kDeepest);
-        return close(length_, 0.0);
+        close(length_, 0.0);
+        return {};
       case Verdict::endless:
         come_to_rest(task.stretch, length_, kDeepestCreep);
         record_.stall = Stall{length_, Angle()};
         close(length_, 0.0);
         record_.end.time = core::kInfinity;
-        return;
+        return {};
       case Verdict::lift_off:
         lift_off = go_to(task, where_load_ends(panel), true);
         break;
@@ -262,9 +291,11 @@ void Integrator::slide(const Stretch& whole, int halvings) {
         break;
     }
   }
-  if (lift_off) return leave_track(*lift_off);
-  if (law_ends) return end_law(*law_ends);
+  if (lift_off && equation().held && *lift_off < whole.end) return whole.beyond(*lift_off);
+  if (lift_off && !equation().held) leave_track(*lift_off);
+  if (law_ends) end_law(*law_ends);
   if (too_tight) end_in_valley(*too_tight);
+  return {};
 }
 
 Integrator::Verdict Integrator::judge(const Panel& panel, const Task& task, const Miss& miss) const {
@@ -301,8 +332,9 @@ Integrator::Verdict Integrator::judge_events(const Panel& panel, bool may_split)
   }
   if (may_split && load == Sign::unknown) return Verdict::split;
   if (load != Sign::negative_somewhere) return Verdict::pass;
-  const bool at_once = panel.load.front() < -kLoadRounding * equation().gravity;
-  const bool clear = at_once || (!panel.load_unbounded() && falls_throughout(panel.load));
+  const chebyshev::Values presses = pressed(panel);
+  const bool at_once = presses.front() < -kLoadRounding * equation().gravity;
+  const bool clear = at_once || (!panel.load_unbounded() && falls_throughout(presses));
   return may_split && !clear ? Verdict::split : Verdict::lift_off;
 }
 
@@ -320,8 +352,16 @@ bool Integrator::rests_at_finish(const Panel& panel) const {
   return std::fabs(panel.v.back()) <= kRestRounding * (panel.kept * v_terms_ + panel.far_v_terms());
 }
 
+/// The load on the side that is pressed.
+chebyshev::Values Integrator::pressed(const Panel& panel) const {
+  chebyshev::Values load = panel.load;
+  for (double& value : load) value *= panel.pressing;
+  return load;
+}
+
 Sign Integrator::load_sign(const Panel& panel) const {
-  const chebyshev::Values& load = panel.load_unbounded() ? panel.stretched_load : panel.load;
+  chebyshev::Values load = panel.load_unbounded() ? panel.stretched_load : panel.load;
+  for (double& value : load) value *= panel.pressing;
   return sign_of(load, kLoadRounding * std::max(equation().gravity, largest_size(load)));
 }
 
@@ -342,7 +382,7 @@ void Integrator::stall(const Panel& panel) {
       root_between([&](double at) { return panel.scaled_w(at); }, node_sigma(node - 1), node_sigma(node));
   const double s = panel.stretch.arc_length(sigma);
   come_to_rest(panel.stretch, s, kDeepest);
-  const double missing = math::atan(panel.friction) - equation().centerline->slope_angle(s);
+  const double missing = math::atan(std::fabs(panel.friction)) - equation().centerline->slope_angle(s);
   record_.stall = Stall{s, Angle::from_radians(std::max(0.0, missing))};
   close(s, 0.0);
 }
@@ -376,17 +416,17 @@ void Integrator::come_to_rest(const Stretch& stretch, double s, int deepest) {
 
 double Integrator::where_load_ends(const Panel& panel) const {
   const double rounding = kLoadRounding * equation().gravity;
-  const auto lifted =
-      std::find_if(panel.load.begin(), panel.load.end(), [&](double load) { return load < -rounding; });
-  if (lifted == panel.load.begin()) return panel.stretch.begin;
-  const auto pressed = std::find_if(std::make_reverse_iterator(lifted), panel.load.rend(),
-                                    [](double load) { return load >= 0.0; });
-  if (pressed == panel.load.rend()) return panel.stretch.begin;
+  const chebyshev::Values loads = pressed(panel);
+  const auto lifted = std::find_if(loads.begin(), loads.end(), [&](double load) { return load < -rounding; });
+  if (lifted == loads.begin()) return panel.stretch.begin;
+  const auto pressing =
+      std::find_if(std::make_reverse_iterator(lifted), loads.rend(), [](double load) { return load >= 0.0; });
+  if (pressing == loads.rend()) return panel.stretch.begin;
   const auto node_sigma = [&](auto node) {
-    return panel.stretch.width * chebyshev::nodes()[static_cast<std::size_t>(node - panel.load.begin())];
+    return panel.stretch.width * chebyshev::nodes()[static_cast<std::size_t>(node - loads.begin())];
   };
   const double sigma = root_between([&](double at) { return panel.load_at(equation(), at); },
-                                    node_sigma(pressed.base() - 1), node_sigma(lifted));
+                                    node_sigma(pressing.base() - 1), node_sigma(lifted));
   return panel.stretch.arc_length(sigma);
 }
 
@@ -481,7 +521,7 @@ Panel Integrator::integrated(const Stretch& stretch, double v) {
          "a centerline whose breaks() tell where its curvature jumps"});
   }
   --panels_left_;
-  return {equation(), stretch, v};
+  return {equation(), stretch, v, pressing_};
 }
 
 }  // namespace

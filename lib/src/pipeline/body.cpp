@@ -136,6 +136,8 @@ Body body_of(const Design& design) {
     // A list of one friction is that friction, with all that is known of it.
     if (change.friction != before) body.friction_changes.push_back({change.from, change.friction});
   }
+  // A stream has nothing above it that could press on it.
+  body.held = design.limits && !design.limits->lowest_normal_load && !design.stream;
   if (design.feed) {
     body.landing = first_fall(design).landing;
   }

@@ -62,6 +62,8 @@ struct Body {
   std::optional<Landing> landing = {};
   /// Where that depends on friction and law: it then says what `landing` is, of a Motion's body() known.
   std::shared_ptr<const Approach> approach = nullptr;
+  /// Held from both sides, as by a rail that it runs on and one above it: it leaves no track, and what rubs is |N|.
+  bool held = false;
 };
 
 /// @return how a body comes down on the start of its track; none of one that enters along it
@@ -75,10 +77,11 @@ struct Body {
 
 /// The body at one station.
 struct MotionState {
-  double arc_length = 0.0;     ///< [m]
-  double time = 0.0;           ///< since the start [s]
-  double speed = 0.0;          ///< u of the centre of mass [m/s]
-  double normal_load = 0.0;    ///< N = g cos(zeta) + kappa u^2/(1 - kappa h) per unit mass [m/s^2]
+  double arc_length = 0.0;  ///< [m]
+  double time = 0.0;        ///< since the start [s]
+  double speed = 0.0;       ///< u of the centre of mass [m/s]
+  /// N = g cos(zeta) + kappa u^2/(1 - kappa h) per unit mass [m/s^2]; negative where a body that is held presses upwards
+  double normal_load = 0.0;
   double friction_loss = 0.0;  ///< energy per unit mass lost to friction since the start [J/kg]
   double drag_loss = 0.0;      ///< energy per unit mass lost to drag since the start [J/kg]
 };
@@ -125,7 +128,8 @@ struct QuantityPeak {
 ///
 /// Ends: at the finish (arrived), at a stall, at a lift-off, or where the law ends, whichever comes first. A normal load down to
 ///   -1e-12 g counts as contact, so that free fall along a track (N = 0) is not lost to rounding. A body
-///   whose speed at the finish rounding cannot tell from zero arrives there with exit speed 0.
+///   whose speed at the finish rounding cannot tell from zero arrives there with exit speed 0. A body that is held
+///   (Body::held) does not lift off: where N changes its sign friction changes sides, c |N| in place of c N.
 /// Accuracy: kMotionAccuracy relative in speed and travel time, if the centerline's slope angle is exact to a
 ///   few units in the last place of s and zeta; measured in docs/accuracy.md.
 /// Domain: a centerline that is smooth between its breaks(). A bump narrower than some 1/40 of a smooth

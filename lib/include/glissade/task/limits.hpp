@@ -88,8 +88,8 @@ struct Limits {
   bool concave = false;                          ///< kappa >= 0: no crest at all
 
   std::optional<double> highest_normal_load;  ///< N = g cos(zeta) + kappa u^2 <= value [m/s^2]
-  /// N >= value [m/s^2]; 0 keeps the body in contact. None: it is held from both sides, which a search cannot
-  /// model: the friction of such a body is not, and a ride ends where the body leaves the track.
+  /// N >= value [m/s^2]; 0 keeps the body in contact. None: it is held from both sides (Body::held of what rides), for which no
+  /// track is searched.
   std::optional<double> lowest_normal_load = 0.0;
   std::optional<double> highest_curvature_load;  ///< kappa u^2 <= value [m/s^2]; valleys alone can break it
 

@@ -44,11 +44,13 @@ std::vector<LawQuantity> RollingBall::quantities() const {
 
 double RollingBall::quantity(std::size_t index, const LawState& state) const {
   if (index != 0) return Law::quantity(index, state);
-  const double resisting = state.friction * state.normal_load;
+  // One that is held from both sides rolls on whichever it presses.
+  const double load = std::fabs(state.normal_load);
+  const double resisting = state.friction * load;
   const double acceleration = (state.drive - resisting) / inertia_;
   const double force = std::fabs((inertia_ - 1.0) * acceleration + resisting);
   if (force == 0.0) return 0.0;
-  const double pressed = state.normal_load / spread_;
+  const double pressed = load / spread_;
   return pressed > 0.0 ? force / pressed : std::numeric_limits<double>::infinity();
 }
 
