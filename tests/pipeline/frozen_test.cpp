@@ -24,6 +24,8 @@ const std::string kHead =
     "track: {start: {x: 3 m, y: 1 m, z: 6 m}, finish: {x: -3 m, y: 9 m, z: 0 m}}\n";
 const std::string kBody = "body: {friction_coefficient: {low: 0.18, nominal: 0.2, high: 0.22}}\n";
 
+const std::string kTurnsAtOnce = "a search whose track turns within 1e-8 m of its start";
+
 struct Case {
   std::string name;
   std::string text;
@@ -56,6 +58,21 @@ std::vector<Case> cases() {
        "body: {friction_coefficient: 0.03, drag: 0.0013 1/m}\n"
        "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m}\n"
        "gates: {count: 5}\n"},
+      {kTurnsAtOnce,
+       "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}, finish: {x: 11.881511186379747 m, z: "
+       "-14.882457840986204 m}}\n"
+       "body: {friction_coefficient: 0.45170656300509787, drag: 0.012273111473872608 1/m, head_wind: "
+       "0.7671993306983738 m/s}\ncenterline: {kind: fastest}\n"
+       "limits: {entry_slope_angle: {highest: 71.340 deg}}\n",
+       false},
+      {"jumps of curvature beside bends that change theirs fast",
+       "glissade: 1\ntrack: {start: {x: 0 m, z: 4 m}}\n" + kBody +
+           "centerline: {kind: segments, entry_slope_angle: 31 deg, segments: [{length: 0.4 m}, {length: "
+           "0.05 m, "
+           "entry_curvature: -3 1/m, exit_curvature: -0.9 1/m}, {length: 40 mm, entry_radius: 1.55 m, "
+           "exit_radius: "
+           "248 m}, {to_point: [1.1 m, 3.2 m]}, {bend: cubic, to_slope_angle: 20 deg, exit_radius: 2 m}]}\n",
+       false},
       {"segments to a slope angle, to a point, and a cubic bend",
        "glissade: 1\ntrack: {start: {x: 7 m, z: 4 m}}\n" + kBody +
            "centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 1 m}, "
@@ -114,7 +131,11 @@ TEST_CASE("stations of a track, read back with slope angles and curvatures, are 
   constexpr double kSame = 1e-9;  // accuracy: docs/design-file.md
   const TempDir directory;
   std::vector<Design> designs;
-  for (const Case& item : cases()) designs.push_back(parse_design(item.text, directory / "design.yaml"));
+  for (const Case& item : cases()) {
+    // On a crest of a millionth of a millimetre that it follows all but without weight a body leaves any table.
+    if (item.name == kTurnsAtOnce) continue;
+    designs.push_back(parse_design(item.text, directory / "design.yaml"));
+  }
   for (const char* const name : {"sand_ski_ramp.yaml", "ski_jump_inrun.yaml", "toboggan_run.yaml",
                                  "hills/garmisch_hs142.yaml", "powder_chute.yaml"}) {
     designs.push_back(read_design(designs_path(name)));

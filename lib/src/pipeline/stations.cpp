@@ -7,7 +7,10 @@
 #include "report/ride_stations.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <utility>
 
 namespace glissade {
@@ -87,11 +90,62 @@ StationTable pipeline::stations_of(const Track& track, const std::vector<double>
   return table;
 }
 
+namespace {
+
+/// The breaks at which curvature jumps.
+std::vector<double> jumps_of(const Centerline& centerline) {
+  constexpr double kJump = 1e-9;  // rounding: of both curvatures, as in table_of()
+  const std::vector<double> breaks = centerline.breaks();
+  std::vector<double> jumps;
+  for (std::size_t i = 1; i + 1 < breaks.size(); ++i) {
+    const double before = centerline.direction(std::nextafter(breaks[i], 0.0)).curvature;
+    const double after = centerline.direction(breaks[i]).curvature;
+    if (!(std::fabs(after - before) > kJump * (std::fabs(after) + std::fabs(before)))) continue;
+    if (jumps.empty() || jumps.back() < breaks[i]) jumps.push_back(breaks[i]);
+  }
+  return jumps;
+}
+
+/// The place and what adds up along the ride are those of the station itself; curvature and load stay those of before it.
+void move_to(const MotionState& there, std::optional<MotionState>& state) {
+  if (!state) return;
+  const double load = state->normal_load;
+  state = there;
+  state->normal_load = load;
+}
+
+/// Makes of the station just before a jump a second one at the jump.
+void move_to_next(StationTable& table, std::size_t index) {
+  StationRow& row = table.rows[index];
+  const StationRow& next = table.rows[index + 1];
+  const double curvature = row.point.curvature;
+  row.point = next.point;
+  row.point.curvature = curvature;
+  row.position = next.position;
+  if (next.motion) move_to(*next.motion, row.motion);
+  for (StationRange& range : table.range) {
+    if (range.states[index + 1]) move_to(*range.states[index + 1], range.states[index]);
+  }
+}
+
+}  // namespace
+
 void write_track_csv(const std::filesystem::path& file, const Track& track) {
-  // Kind `points` reads the table back: it is as dense as that asks for.
+  // Kind `points` reads the table back: it is as dense as that asks for, and has both curvatures of a jump.
   const Centerline& centerline = *track.centerline;
-  write_stations_csv(
-      file, pipeline::stations_of(track, places_for_table(centerline, report::track_stations(centerline))));
+  const std::vector<double> jumps = jumps_of(centerline);
+  std::vector<double> places;
+  std::vector<std::size_t> before_jumps;
+  for (const double s : places_for_table(centerline, report::track_stations(centerline))) {
+    if (std::binary_search(jumps.begin(), jumps.end(), s)) {
+      before_jumps.push_back(places.size());
+      places.push_back(std::nextafter(s, 0.0));
+    }
+    places.push_back(s);
+  }
+  StationTable table = pipeline::stations_of(track, places);
+  for (const std::size_t index : before_jumps) move_to_next(table, index);
+  write_stations_csv(file, table);
 }
 
 }  // namespace glissade
