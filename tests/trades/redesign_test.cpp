@@ -185,16 +185,21 @@ TEST_CASE(
   }
   const RedesignShape& letters = shape_named(found, "within the rules");
   const RedesignShape& free = found.shapes.back();
-  CHECK(letters.ends.drop <= certificate.ends.drop + 1e-9);
+  // The certificate's own fast gates press more than advice has it: what keeps that is a little higher.
+  CHECK(std::fabs(letters.ends.drop - certificate.ends.drop) < 0.02);
   CHECK(free.ends.drop < letters.ends.drop);
+  CHECK(free.ends.drop < certificate.ends.drop);
   CHECK(free.curvature_rate < 1.001 * certificate.curvature_rate);
   CHECK(found.search->status == OptimizeStatus::optimal);
-  // Advice says 35 deg; r1 is held by its rule at the take-off speed, which is also that of the sizes.
+  // Advice says 35 deg; r1 is held by what the fastest ride of all gates and conditions presses, which asks for more than its rule
+  // at the take-off speed, that of the sizes.
   const LetterPrice& r1 = found.prices[2];
   CHECK(r1.letter == "r1");
-  CHECK(r1.rule == "fis.in-run.r1");
+  CHECK((r1.rule == "fis.in-run.radial-acceleration" || r1.rule == "fis.in-run.load"));
   CHECK(r1.certainty == Certainty::derived);  // nobody read it in the norm
-  CHECK(std::fabs(r1.value - 0.14 * found.take_off.speed * found.take_off.speed) < 1e-6);
+  const double by_take_off = 0.14 * found.take_off.speed * found.take_off.speed;
+  CHECK(r1.value > 1.005 * by_take_off);
+  CHECK(r1.value < 1.03 * by_take_off);
   CHECK(r1.price > 0.0);
 }
 
@@ -257,6 +262,10 @@ TEST_CASE("a redesign reads back as a design that gives its numbers") {
     for (const Judgement& judgement : judgements) {
       INFO(judgement.rule.id << ": " << judgement.reason);
       CHECK(judgement.verdict != RuleVerdict::fail);
+      // The letters keep them from every gate in every condition, as advice too.
+      const bool of_bend = judgement.rule.quantity == "highest_radial_acceleration" ||
+                           judgement.rule.quantity == "highest_normal_load";
+      if (!free && of_bend) CHECK(judgement.verdict == RuleVerdict::pass);
       const bool asked = judgement.rule.id == "fis.hill.height-large";  // zU is not of the in-run
       CHECK((judgement.verdict == RuleVerdict::cannot_be_judged) == asked);
     }

@@ -439,6 +439,61 @@ const std::vector<RedesignGoal>& redesign_goals() {
   return all;
 }
 
+namespace {
+
+/// By what r1 has to grow for a rule on the load of the bend, that rule, and what r1 grows by with the take-off speed; none where
+/// every such rule holds.
+std::optional<RuledBound> growth_of_radius(const Design& design, const Measurements& measurements,
+                                           double speed) {
+  constexpr double kRounding = 1e-9;  // rounding: of a bound, as rules count what lies at it
+  const Measurements::Entry* const radial = measurements.find("highest_radial_acceleration");
+  if (radial == nullptr || !radial->value) return {};
+  std::optional<RuledBound> growth;
+  for (const Rule& rule : design.rules.in_force) {
+    const bool of_bend = rule.quantity == "highest_radial_acceleration" ||
+                         rule.quantity == "highest_normal_load" || rule.quantity == "load_above_table_weight";
+    const Measurements::Entry* const entry = of_bend ? measurements.find(rule.quantity) : nullptr;
+    if (entry == nullptr || !entry->value || !rule.bound.highest || !applies(rule, measurements)) continue;
+    // What curvature adds to the load goes with 1/r1.
+    const double excess = *entry->value - *rule.bound.highest;
+    const double allowed = *radial->value - excess;
+    if (!(excess > kRounding * *rule.bound.highest) || !(allowed > 0.0)) continue;
+    // The squared speed of that ride grows by about as much as that of the one that counts.
+    tighten(growth, *radial->value / allowed, rule, 1.0, 2.0 * speed / allowed);
+  }
+  return growth;
+}
+
+/// growth_of_radius() of the letters found; none where their gates cannot be ridden: a start area longer than the straight that
+/// is left is told when the design is read.
+std::optional<RuledBound> growth_for_rides(const Design& design, const Redesign& result,
+                                           const RunContext& context) {
+  try {
+    const Design found = redesigned(design, result, false);
+    return growth_of_radius(design, rule_measurements(found, solve(found, context)), result.take_off.speed);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// The lowest in-run of a certificate's letters that keeps every rule: those on the ride, too, from every gate and in every
+/// condition, of which a fast one is faster than the nominal ride.
+void find_within_rules(const Design& design, const InRunShape& certificate, const RunContext& context,
+                       RuledLetters& ruled, Redesign& result) {
+  constexpr int kMostRounds = 10;         // budget: each leaves some thousandth of what was missing
+  constexpr double kBeyond = 1.0 + 1e-9;  // rounding: on the safe side of the bound
+  result.within_rules = least_drop_in_run(certificate, bounds_of(ruled), result.take_off);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::optional<RuledBound> growth = growth_for_rides(design, result, context);
+    if (!growth) return;
+    tighten(ruled.radius, kBeyond * growth->value * result.within_rules.r1, *growth->rule, 1.0,
+            growth->by_speed);
+    result.within_rules = least_drop_in_run(certificate, bounds_of(ruled), result.take_off);
+  }
+}
+
+}  // namespace
+
 Redesign redesign(const Design& design, const RedesignOptions& options, const RunContext& context) {
   if (design.centerline.kind != CenterlineKind::in_run) {
     throw InputError(
@@ -467,7 +522,7 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
       return std::make_shared<const InRun>(reaching(certificate, take_off));
     }));
   }
-  result.within_rules = least_drop_in_run(certificate, bounds_of(ruled), take_off);
+  find_within_rules(design, certificate, context, ruled, result);
   result.shapes.push_back(
       ridden("its letters within the rules", std::make_shared<const InRun>(result.within_rules), take_off));
   result.prices = prices_of(result.within_rules, take_off, ruled);
