@@ -159,8 +159,8 @@ std::string radius_text(const Track& track) {
   const bool open = profile != nullptr && profile->largest_curvature() &&
                     profile->largest_curvature()->greatest > kOpen * profile->largest_curvature()->least;
   if (!open) return length_text(track.min_radius);
-  return length_text(track.min_radius) + "; the points allow " +
-         radius_range_text(*profile->largest_curvature());
+  return length_text(track.min_radius) + "; " + radius_range_text(*profile->largest_curvature()) +
+         " describe the points about as well";
 }
 
 std::string solid_lines(const Design& design, const Build& build) {

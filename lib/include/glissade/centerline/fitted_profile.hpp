@@ -133,7 +133,8 @@ class FittedProfile final : public Centerline {
   ///         lies between. Of a curve through points that cross-validation would have left to noise, its own and the one of that
   ///         other curve. Of exact points: of a curve through them, as far as the one through every second of them differs; of
   ///         pieces only where fewer points lie along some than these have unknowns, or where they leave something of
-  ///         the points. None of other pieces, where too few points tell, or with a max_deviation.
+  ///         the points. None of other pieces, where too few points tell, or with a max_deviation. It is no interval of confidence:
+  ///         where pieces are others than those tried, the profile's own may lie outside (docs/accuracy.md).
   [[nodiscard]] const std::optional<CurvatureRange>& largest_curvature() const noexcept {
     return largest_curvature_;
   }
