@@ -290,9 +290,8 @@ std::string broken_text(const Design& design, const LimitCheck& check) {
       texts_apart(check.value, check.reached,
                   [dimension](double value, int digits) { return quantity_text(value, dimension, digits); });
   std::string text = check.limit.key() + " " + bound + " is broken";
-  if (check.leaves_track) {
-    return text + ": the body leaves the track (" + reached + " after " + length_text(check.where) + ")";
-  }
+  // Where it does is told of the ride; the least load until then may lie elsewhere.
+  if (check.leaves_track) return text + ": the body leaves the track";
   if (std::isfinite(check.violation)) text += " by " + quantity_text(check.violation, dimension);
   text += " (";
   // Less than nothing is no clearance: the solid reaches into the obstacle.
