@@ -535,8 +535,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
 /// crest that turns within 1e-8 of the track it may stay at the former. Turned and scaled by what it misses the track meets it,
 /// and keeps what it kept to as much.
 void meet_finish(const Problem& problem, double tolerance, Optimum& optimum) {
-  constexpr double kMet =
-      1e-10;  // accuracy: of the chord; a tenth of what a track written down comes back to
+  constexpr double kMet = 1e-10;  // accuracy: of the chord; a tenth of what tables come back to
   const auto* const spline = dynamic_cast<const ClothoidSpline*>(optimum.centerline.get());
   if (spline == nullptr || problem.finish.kind != FinishKind::point) return;
   const Vec2 asked{std::fabs(problem.endpoints.run), problem.endpoints.drop};

@@ -619,9 +619,10 @@ void require_searchable(const Problem& problem) {
                       "the track below, with the hood as its approach"});
   }
   if (problem.limits.lowest_normal_load) return;
-  throw InputError({"", "lowest_normal_load is lifted",
-                    "No track is searched for a body held from both sides: its friction turns round where its load does.",
-                    "0 or a positive value; any other kind of track is ridden by such a body"});
+  throw InputError(
+      {"", "lowest_normal_load is lifted",
+       "No track is searched for a body held from both sides: its friction turns round where its load does.",
+       "0 or a positive value; any other kind of track is ridden by such a body"});
 }
 
 void require_passable_in_order(const Problem& problem) {
