@@ -417,6 +417,32 @@ TEST_CASE("master curve: a tolerance without sense is refused") {
   }
 }
 
+TEST_CASE(
+    "arc spline: what rounding leaves of a straight is straight to the last bit, arcs stay what they are") {
+  for (const double bulge : {1.4e-16, -3e-13, 9e-11}) {
+    const ArcSpline track({{{{0.0, 0.0}, 0.0}, {{1.0, 0.0}, bulge}, {{3.0, 0.0}, 0.0}}, false});
+    CHECK(track.arcs()[1].curvature == 0.0);
+    CHECK(track.path().vertices[1].bulge == 0.0);
+    CHECK(track.length() == 3.0);
+  }
+  const ArcSpline flat({{{{0.0, 0.0}, 1.1e-10}, {{2.0, 0.0}, 0.0}}, false});
+  CHECK(std::fabs(1.0 / flat.arcs()[0].curvature) == Approx(2.0 / 4.4e-10));
+}
+
+TEST_CASE("master curve: a straight behind a curve and an arc is a line, no arc of an endless radius") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 7 m}}\nbody: {friction_angle: 8 deg, entry_speed: 0.5 m/s}\n"
+      "centerline: {kind: segments, entry_slope_angle: 45 deg, segments: [{length: 1 m}, {bend: cubic, "
+      "to_slope_angle: 30 deg, exit_radius: 3.5 m}, {to_slope_angle: 15 deg, radius: 3.5 m}, {length: 1 "
+      "m}]}\n"
+      "cross_section: {kind: slab, width: 1 m, thickness: 5 mm}\n",
+      "straight.yaml");
+  const MasterCurve curve = fit_arcs(*solve(design).centerline, {1e-4});
+  CHECK(curve.lines == 2);
+  CHECK(curve.spline->arcs().back().curvature == 0.0);
+  for (const TrackArc& arc : curve.spline->arcs()) CHECK(std::fabs(arc.curvature) < 1.0);
+}
+
 TEST_CASE("arc spline: a kink, a gap of no length and a wrong start are refused by joint") {
   const auto message = [](std::vector<PathVertex> vertices) {
     try {

@@ -13,6 +13,10 @@
 namespace glissade {
 namespace {
 
+/// Pieces of a smaller bulge are straight: they rise by less than half of this share of their length. What fits leave of a
+/// straight is rounding, 1e-16 to 1e-13, and its radius would be that of nothing.
+constexpr double kNoBulge = 1e-10;  // rounding: a tenth of kArcSplineKink at each end
+
 /// @return sin(x) / x
 double sinc(double x) {
   return std::fabs(x) < 1e-4 ? 1.0 - x * x / 6.0 : math::sin(x) / x;
@@ -36,6 +40,9 @@ ArcSpline::ArcSpline(ArcPath path, double largest_kink) : path_(std::move(path))
   if (vertices.front().at != Vec2{})
     throw InputError({"", "arc spline: does not start at the origin", "", ""});
   path_.closed = false;
+  for (PathVertex& vertex : path_.vertices) {
+    if (std::fabs(vertex.bulge) < kNoBulge) vertex.bulge = 0.0;
+  }
   double heading = 0.0;  // upwards of the run, so -zeta
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
     const Vec2 chord = vertices[i + 1].at - vertices[i].at;

@@ -21,7 +21,8 @@ inline constexpr double kArcSplineKink = 1e-9;
 
 /// A track of straight lines and circular arcs that meet with a common tangent: what a shop cuts, rolls and sets out.
 ///
-/// Curve: curvature piecewise constant, position and slope angle continuous.
+/// Curve: curvature piecewise constant, position and slope angle continuous. Pieces that rise by less than 5e-11 of their length,
+/// which is what rounding leaves of a straight, are straight to the last bit: curvature and bulge 0.
 /// Accuracy: joints are the vertices of the path to the last bit; kArcSplineAccuracy * length() in between.
 /// Identity: an offset of it is concentric arcs with the same joints, exactly.
 class ArcSpline final : public Centerline {
