@@ -199,6 +199,24 @@ TEST_CASE("a STEP file that is not the parts is found out") {
   CHECK_THROWS_AS(require_same_step(file, workshop), InternalError);
 }
 
+TEST_CASE(
+    "a STEP file with a radius that coordinates do not carry is found out, however well vertices lie on it") {
+  const TempDir directory;
+  const auto file = directory / "flat.step";
+  const auto part_of = [](double bulge) {
+    PlaneRegion region{rectangle({0.0, 0.0}, {1.0, 0.2}), {}, {}};
+    region.outline.vertices[0].bulge = bulge;
+    return testing::shop_part(1, "plate", Prism{region, 0.004});
+  };
+  const ShopPart flat = part_of(1e-9);
+  write_step(file, flat);
+  CHECK_NOTHROW(require_same_step(file, flat));
+  CHECK(read_step_facts(file).solids.front().largest_radius_mm == Approx(1000.0 / 4e-9));
+  const ShopPart endless = part_of(1.4e-16);
+  write_step(file, endless);
+  CHECK_THROWS_AS(require_same_step(file, endless), InternalError);
+}
+
 TEST_CASE("a STEP file that is cut off or broken anywhere is an error, never more") {
   const TempDir directory;
   const auto file = directory / "broken.step";

@@ -335,6 +335,7 @@ class SolidCheck {
   }
 
   StepSolid result() {
+    found_.largest_radius_mm = largest_radius_;
     found_.vertices = vertices_.size();
     found_.edges = uses_.size();
     for (const auto& [edge, use] : uses_) chains_ = chains_ && use.first == 1 && use.second == 1;
@@ -362,6 +363,7 @@ class SolidCheck {
     else
       throw step_.error("#" + std::to_string(surface) + " is a surface of another kind",
                         "Planes, cylinders, cones and B-splines are read.");
+    if (kind == "CYLINDRICAL_SURFACE" || kind == "CONICAL_SURFACE") see_radius(surface);
     const auto gap = gap_from_surface(step_, surface);
     for (const Id bound : step_.references(parts[1]))
       add_loop(step_.reference(step_.parameters(bound, 3)[1]), gap);
@@ -394,6 +396,7 @@ class SolidCheck {
   }
 
   void hold_vertices(Id curve, Id from, Id to) {
+    if (step_.at(curve).keyword == "CIRCLE") see_radius(curve);
     const auto gap = gap_from_curve(step_, curve);
     hold(gap(vertex(from)));
     hold(gap(vertex(to)));
@@ -407,12 +410,18 @@ class SolidCheck {
     return place;
   }
 
+  /// Of a circle, cylinder or cone.
+  void see_radius(Id round) {
+    largest_radius_ = std::max(largest_radius_, step_.number(step_.parameters(round, 3)[2]));
+  }
+
   void hold(double gap) { found_.worst_gap_mm = std::max(found_.worst_gap_mm, gap); }
 
   const StepEntities& step_;
   StepSolid found_;
   std::unordered_map<Id, std::pair<int, int>> uses_;
   std::unordered_map<Id, Vec3> vertices_;
+  double largest_radius_ = 0.0;
   bool chains_ = true;
 };
 
@@ -424,7 +433,8 @@ bool same_solid(const StepSolid& found, const ShopPart& part) {
     planes += face.kind == SurfaceKind::plane ? 1 : 0;
     loops += face.loops.size();
   }
-  return found.closed && found.worst_gap_mm <= kStepAccuracy && found.name == step_name(part) &&
+  return found.closed && found.worst_gap_mm <= kStepAccuracy &&
+         found.largest_radius_mm <= kStepLargestRadius && found.name == step_name(part) &&
          found.vertices == meant.vertices.size() && found.edges == meant.edges.size() &&
          found.planes == planes && found.faces() == meant.faces.size() && found.loops == loops;
 }

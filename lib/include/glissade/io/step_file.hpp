@@ -23,6 +23,9 @@ inline constexpr double kStepRounding = 1e-9;
 /// four units in its last place, where an arc is all but straight.
 inline constexpr double kStepAccuracy = 1e-8;
 
+/// Largest radius [mm]: coordinates of a centre farther away are no finer than 0.004 mm, and readers make nothing of what is beyond.
+inline constexpr double kStepLargestRadius = 2e13;
+
 /// @return one part, in its own frame
 /// @throws InputError if a body is none: a region with faults_of(), a depth, radius or length that is not positive, a path
 ///         with kinks, a section that reaches beyond the centre of an arc, planes of a gore that meet inside the tube
@@ -50,7 +53,8 @@ struct StepSolid {
   /// Every edge is used twice, once in each direction, each loop is a closed chain, and the count of vertices, edges, faces
   /// and loops is that of a closed surface (Euler and Poincare).
   bool closed = false;
-  double worst_gap_mm = 0.0;  ///< of a vertex from a curve or surface that it bounds [mm]
+  double worst_gap_mm = 0.0;       ///< of a vertex from a curve or surface that it bounds [mm]
+  double largest_radius_mm = 0.0;  ///< of its circles, cylinders and cones [mm]
 
   [[nodiscard]] std::size_t faces() const { return planes + cylinders + cones + splines; }
 };
@@ -66,7 +70,8 @@ struct StepFacts {
 ///         or has a face of another kind; says which entity
 [[nodiscard]] StepFacts read_step_facts(const std::filesystem::path& file);
 
-/// Holds a STEP file against what it was written from: solids and their names, places, closed shells, gaps.
+/// Holds a STEP file against what it was written from: solids and their names, places, closed shells, gaps, radii up to
+/// kStepLargestRadius.
 /// @throws InternalError if anything differs; FileError as read_step_facts()
 void require_same_step(const std::filesystem::path& file, const Workshop& workshop);
 void require_same_step(const std::filesystem::path& file, const ShopPart& part);
