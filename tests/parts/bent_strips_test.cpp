@@ -124,6 +124,59 @@ TEST_CASE("bent strips: a wall that takes its form by itself is, laid flat facet
   }
 }
 
+TEST_CASE("bent strips: gentle bends of leaning sides are pressed, upright ones that spring are told") {
+  // Radii of 20 m and more: 5,000 thicknesses.
+  const ClothoidSpline gentle(Angle::from_degrees(40.0), {{4.0, 0.05, 0.05}});
+  PlateOptions options = bent(1.0);
+  const WorkshopBuild build =
+      plates_of(gentle, section::Trapezoid{WidthLaw(0.4), 0.2, Angle::from_degrees(45.0), 4e-3}, options);
+  std::size_t bends = 0;
+  for (const ShopPart& part : build.workshop.parts) {
+    const auto* const body = std::get_if<FoldedPlate>(&part.body);
+    if (body == nullptr) continue;
+    CHECK(part.pattern->bends.size() == body->corners.size() - 2);
+    if (part.name.starts_with("floor")) bends += part.quantity() * part.pattern->bends.size();
+  }
+  CHECK(bends == build.ride.bends);
+  CHECK(bends > 0);
+  const auto told = [](const WorkshopBuild& made) {
+    return std::any_of(made.workshop.notes.begin(), made.workshop.notes.end(), [](const std::string& note) {
+      return note.find("sprung into place") != std::string::npos;
+    });
+  };
+  CHECK_FALSE(told(build));
+  CHECK(told(plates_of(chute(), section::UChannel{kWidening, 0.18, 4e-3}, bent())));
+}
+
+TEST_CASE("bend schedules of mirror images count along the edge beside the floor, both alike") {
+  for (const FloorMake floor : {FloorMake::bent, FloorMake::rolled}) {
+    PlateOptions options = bent();
+    options.floor = floor;
+    const WorkshopBuild build =
+        plates_of(chute(), section::Trapezoid{WidthLaw(0.4), 0.2, Angle::from_degrees(40.0), 4e-3}, options);
+    const auto rows_of = [&](const std::string& name) {
+      std::vector<BendStep> rows;
+      for (const BendStep& step : build.workshop.bends) {
+        if (step.part == part_of(build, name).number) rows.push_back(step);
+      }
+      return rows;
+    };
+    const std::vector<BendStep> left = rows_of("left_wall");
+    const std::vector<BendStep> right = rows_of("right_wall");
+    REQUIRE(left.size() == right.size());
+    REQUIRE(left.size() > 2);
+    // They count along the line in which they meet the floor; bends of less angle take less of it.
+    const std::vector<BendStep> below = rows_of("floor");
+    REQUIRE(below.size() == left.size());
+    const double takes = floor == FloorMake::bent ? 1e-3 : 1e-9;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      CHECK(std::fabs(left[i].distance - right[i].distance) < 1e-9);
+      CHECK(std::fabs(left[i].length - right[i].length) < 1e-9);
+      CHECK(std::fabs(left[i].distance - below[i].distance) < takes);
+    }
+  }
+}
+
 TEST_CASE("bent strips: the pattern of a floor that widens to both sides is the same on both") {
   std::size_t bends = 0;
   for (const section::Measures& measures :

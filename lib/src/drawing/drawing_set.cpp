@@ -86,7 +86,8 @@ SheetTable items_list(const Workshop& workshop) {
 
 SheetTable bend_schedule(const Workshop& workshop) {
   SheetTable table;
-  table.caption = "Bend schedule: distances on the flat from the upstream edge";
+  table.caption =
+      "Bend schedule: distances on the flat from the upstream edge, along the edge beside the floor";
   table.widths_mm = {12.0, 12.0, 26.0, 24.0, 22.0, 22.0, 26.0, 16.0};
   table.header = {"part", "no.", "distance mm", "length mm", "angle deg", "sum deg", "radius mm", "chord mm"};
   for (const BendStep& step : workshop.bends) {

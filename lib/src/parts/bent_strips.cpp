@@ -360,9 +360,9 @@ void BentStrips::develop(const SectionPlate& plate, double thickness, const Stre
     sum += bend.angle;
     flat.folds.push_back({flat.base.back(), flat.upper.back(), Angle::from_radians(std::fabs(bend.angle)),
                           radius, bend.angle > 0.0});
-    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, strip.edge_to, 0.0,
-                           Angle::from_radians(bend.angle), Angle::from_radians(sum), radius,
-                           stations_[i].miss});
+    strip.steps.push_back(
+        {0, static_cast<int>(strip.steps.size()) + 1, plate.ends_at_floor() ? strip.edge_to : strip.edge_from,
+         0.0, Angle::from_radians(bend.angle), Angle::from_radians(sum), radius, stations_[i].miss});
   }
   strip.part.pattern = pattern_of(flat, {});
 }

@@ -78,6 +78,18 @@ bool has_works(const PlateOptions& options) {
          !options.inspection.empty();
 }
 
+namespace {
+
+/// Whether the edge of a sheet at its lower y is that beside the floor, as SectionPlate::ends_at_floor() has it.
+bool begins_at_floor(const RolledSheet& sheet) {
+  constexpr double kLevel = 1e-9;  // rounding: of heights that are one [m]
+  const PlaneBox box = bounds(sheet.region.outline);
+  const auto height = [&](double y) { return std::fabs(sheet.foot.x + y * sheet.across.x); };
+  return height(box.low.y) <= height(box.high.y) + kLevel;
+}
+
+}  // namespace
+
 void schedule_bends(const FlatsJob& flats, Workshop& workshop) {
   for (const ShopPart& part : workshop.parts) {
     if (!part.pattern || part.pattern->bends.empty()) continue;
@@ -96,10 +108,14 @@ void schedule_bends(const FlatsJob& flats, Workshop& workshop) {
     double reached = 0.0;
     double sum = 0.0;
     int hit = 0;
-    Vec2 before = part.pattern->region.outline.vertices.front().at;
+    // Outlines begin upstream at the lower y, bends end there.
+    const bool lower = begins_at_floor(*sheet);
+    const auto& outline = part.pattern->region.outline.vertices;
+    Vec2 before = lower ? outline.front().at : outline.back().at;
     for (const BendLine& bend : part.pattern->bends) {
-      reached += norm(bend.to - before);
-      before = bend.to;
+      const Vec2 at = lower ? bend.to : bend.from;
+      reached += norm(at - before);
+      before = at;
       const double angle = bend.up ? bend.angle.radians() : -bend.angle.radians();
       sum += angle;
       const std::size_t corner = std::min(corners.size() - 1, static_cast<std::size_t>(++hit));

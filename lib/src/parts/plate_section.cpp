@@ -378,6 +378,14 @@ PlateSection PlateSection::of_unit(std::size_t unit) const {
   one.plates = plates_of(unit);
   one.staggered.clear();
   return one;
+bool SectionPlate::ends_at_floor() const {
+  constexpr double kLevel = 1e-9;  // rounding: of heights that are one [m]
+  const Vec2 from = middle_from();
+  const Vec2 to = middle_to();
+  const double nearer = std::fabs(from.y) - std::fabs(to.y);
+  return std::fabs(nearer) > kLevel ? nearer > 0.0 : std::fabs(to.x) <= std::fabs(from.x) + kLevel;
+}
+
 }
 
 }  // namespace glissade::parts

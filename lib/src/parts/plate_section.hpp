@@ -29,6 +29,8 @@ struct SectionPlate {
   /// Ends of its middle line.
   [[nodiscard]] Vec2 middle_from() const { return 0.5 * (face_from + back_from); }
   [[nodiscard]] Vec2 middle_to() const { return 0.5 * (face_to + back_to); }
+  /// @return whether the edge beside the floor is that at `face_to`: bend schedules count along it, of both mirror images
+  [[nodiscard]] bool ends_at_floor() const;
 };
 
 /// What tiles of a liner lie on, their faces where the section has its own.

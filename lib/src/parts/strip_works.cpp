@@ -33,6 +33,7 @@ std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate,
   const Vec2 across = plate.middle_from() - plate.middle_to();
   const double level = std::fabs(across.x) / norm(across);  // sin b
   const double middle = 0.5 * (plate.middle_from().y + plate.middle_to().y);
+  const double edge = (plate.ends_at_floor() ? plate.middle_to() : plate.middle_from()).y;
   std::vector<double> radii;
   double reached = 0.0;
   double sum = 0.0;
@@ -42,7 +43,7 @@ std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate,
     const TrackArc& arc = one.arc;
     // The normal curvature of the cone; upright plates are not rolled at all.
     const double curvature = level < 1e-9 ? 0.0 : level * arc.curvature / (1.0 - arc.curvature * middle);
-    const double length = arc.length * (1.0 - arc.curvature * plate.middle_to().y);
+    const double length = arc.length * (1.0 - arc.curvature * edge);
     const double turned = level * arc.curvature * arc.length;
     sum += turned;
     radii.push_back(radius_of(curvature));
@@ -224,12 +225,13 @@ Strip strip_of(const StripJob& job, const PlateOfUnit& of, const Span& span, con
   strip.edge_to = length_along(flat.base, flat.turns);
   strip.edge_from = length_along(flat.upper, flat.turns);
   const std::vector<double> radii = rolled_radii(job, plate, span, strip.steps);
+  const std::vector<Vec2>& edge = plate.ends_at_floor() ? flat.base : flat.upper;
   for (const BendLine& fold : flat.folds) {
     const auto at = std::find(flat.base.begin(), flat.base.end(), fold.from) - flat.base.begin();
     const std::vector<double> turns(flat.turns.begin(), flat.turns.begin() + at);
     const Angle angle = fold.up ? fold.angle : Angle::from_radians(-fold.angle.radians());
-    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(flat.base, turns), 0.0,
-                           angle, angle, fold.inner_radius, 0.0});
+    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(edge, turns), 0.0, angle,
+                           angle, fold.inner_radius, 0.0});
   }
 
   ShopPart& part = strip.part;

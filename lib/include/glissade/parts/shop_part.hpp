@@ -227,7 +227,7 @@ struct BendStep {
   int part = 0;  ///< number of the part
   int hit = 0;   ///< from 1, along the plate
   double distance =
-      0.0;  ///< of the bend's middle, or of the arc's start, from the upstream edge of the flat [m]
+      0.0;  ///< of the bend's middle, or of the arc's start, from the upstream edge of the flat, along the one beside the floor [m]
   double length = 0.0;       ///< of an arc on the flat; 0 of a hit [m]
   Angle angle;               ///< positive where the plate curls up
   Angle sum;                 ///< of the angles so far
