@@ -57,6 +57,12 @@ double leaning(const SectionPlate& plate) {
 
 }  // namespace
 
+bool springs(const SectionPlate& plate, double tightest, double thickness) {
+  constexpr double kUpright = 0.1;     // theory: sine of the most lean that widths give upright walls
+  constexpr double kElastic = 1000.0;  // theory: thicknesses of radius; structural steel yields at half
+  return std::fabs(plate.way().x) <= kUpright && !(tightest < kElastic * thickness);
+}
+
 double inner_radius_of(const StripJob& job, double thickness) {
   return job.options.bend.inner_radius.value_or(thickness);
 }
@@ -271,8 +277,7 @@ std::vector<BentStrips::Bend> BentStrips::bends_of(const SectionPlate& plate, do
     if (at_bend && bend.angle != 0.0) tightest = std::min(tightest, pitch / std::fabs(bend.angle));
     bend.pressed = !at_bend && std::fabs(bend.angle) > kNoBend;
   }
-  // Plates that hardly turn take their form by themselves.
-  if (!(tightest < kElasticBend * thickness)) return bends;
+  if (springs(plate, tightest, thickness)) return bends;
   for (std::size_t i = 1; i + 1 < bends.size(); ++i) {
     const double angle = std::fabs(bends[i].angle);
     if (stations_[stretch.first + i].kink == 0.0 || angle <= kNoBend) continue;
@@ -356,7 +361,10 @@ void BentStrips::develop(const SectionPlate& plate, double thickness, const Stre
     const auto [sine, cosine] = math::sine_cosine(ruling);
     flat.base.push_back(at);
     flat.upper.push_back(at + width * Vec2{cosine, sine});
-    if (!bend.pressed) continue;
+    if (!bend.pressed) {
+      strip.sprung = std::max(strip.sprung, std::fabs(bend.angle));
+      continue;
+    }
     sum += bend.angle;
     flat.folds.push_back({flat.base.back(), flat.upper.back(), Angle::from_radians(std::fabs(bend.angle)),
                           radius, bend.angle > 0.0});

@@ -25,7 +25,8 @@ struct Strip {
   double edge_from = 0.0;  ///< at the side of `face_from` [m]
   double edge_to = 0.0;
   std::optional<double> edge_mismatch =
-      std::nullopt;  ///< of one whose edges are not those of the section [m]
+      std::nullopt;     ///< of one whose edges are not those of the section [m]
+  double sprung = 0.0;  ///< of a bent one that springs(): the largest angle between its flats, else 0 [rad]
 };
 
 /// A corner of the flats, or an end of them.
@@ -35,8 +36,11 @@ struct FlatCorner {
   double miss = 0.0;  ///< from the track [m]
 };
 
-/// Plates that hardly turn take their form by themselves: thicknesses of radius, half of that is where structural steel yields.
-inline constexpr double kElasticBend = 1000.0;
+/// Whether a plate springs into place without bends. On every other one each bend of the line is pressed, as its lean from upright
+/// leaves it: floors, which the body rides, have all of them.
+/// @param tightest  radius that its bends average, where that is least [m]
+[[nodiscard]] bool springs(const SectionPlate& plate, double tightest, double thickness);
+
 /// An angle that nobody bends [rad].
 inline constexpr double kNoBend = 1e-6;
 

@@ -75,11 +75,32 @@ void note_bends(const StripJob& job, const BentStrips& bent, const PartsProof& p
   }
 }
 
+/// Plates that have no bends where the floor has some.
+void note_sprung(const StripJob& job, const std::vector<Strip>& strips, Workshop& workshop) {
+  std::vector<std::string> names;
+  double largest = 0.0;
+  for (const Strip& strip : strips) {
+    if (!(strip.sprung > kNoBend)) continue;
+    largest = std::max(largest, strip.sprung);
+    const std::string& name = job.section.plates_of(strip.unit)[strip.plate].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (names.empty()) return;
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+  workshop.notes.push_back(
+      all + ": all but upright, pressed nowhere, sprung into place; flats of the bodies meet at up to " +
+      angle_text(Angle::from_radians(largest), 2) + ".");
+}
+
 }  // namespace
 
 void add_strip_notes(const StripJob& job, const std::optional<BentStrips>& bent, const PartsProof& proof,
                      const std::vector<Strip>& strips, Workshop& workshop) {
-  if (bent) note_bends(job, *bent, proof, workshop);
+  if (bent) {
+    note_bends(job, *bent, proof, workshop);
+    note_sprung(job, strips, workshop);
+  }
   const std::string pairs = mirrored_pairs(workshop);
   if (!pairs.empty()) {
     workshop.notes.push_back("Parts " + pairs +

@@ -69,7 +69,7 @@ void StripFlat::fold(const StripJob& job, const SectionPlate& plate, double thic
       tightest = std::min(tightest, 0.5 * (run(i) + run(i - 1)) / std::fabs(bends_[i].angle));
   }
   for (FlatBend& bend : bends_) {
-    if (!(tightest < kElasticBend * thickness) || std::fabs(bend.angle) <= kNoBend) continue;
+    if (springs(plate, tightest, thickness) || std::fabs(bend.angle) <= kNoBend) continue;
     bend.pressed = true;
     bend.cut = bend_cut(job, thickness, std::fabs(bend.angle));
   }
