@@ -96,6 +96,48 @@ TEST_CASE("trestles: beams of any width stand clear of a steep track, its frames
   }
 }
 
+TEST_CASE("trestles carry a track with grooves, thin or thick below them, on the underside of its outline") {
+  PlateOptions options;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -8.2}};
+  options.supports->spacing = 1.5;
+  options.supports->steepest = Angle::from_degrees(75.0);
+  for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+    options.floor = floor;
+    for (const double thickness : {0.03, 0.04, 0.12}) {
+      INFO("thickness " << thickness);
+      section::TrackGroove track;
+      track.width = WidthLaw(0.4);
+      track.groove_width = 0.08;
+      track.groove_depth = 0.04;
+      track.groove_spacing = 0.2;
+      track.thickness = thickness;
+      // Throws InternalError where one reaches into another.
+      const WorkshopBuild build = plates_of(chute(), track, options);
+      CHECK(named(build, "saddle").size() >= 2);
+      CHECK_FALSE(named(build, "frame").empty());
+    }
+  }
+}
+
+TEST_CASE("trestles: saddles stand beside stiffeners that lean over them") {
+  PlateOptions options;
+  options.round = RoundMake::staves;
+  options.floor = FloorMake::bent;
+  options.stiffeners.emplace();
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -8.2}};
+  options.supports->steepest = Angle::from_degrees(75.0);
+  for (const double spacing : {0.5, 0.55, 0.6, 0.65, 0.7}) {
+    options.stiffeners->spacing = spacing;
+    for (const double apart : {0.8, 0.9, 1.0}) {
+      options.supports->spacing = apart;
+      INFO("stiffeners " << spacing << ", trestles " << apart);
+      CHECK_FALSE(named(plates_of(chute(), section::Pipe{0.42, 8e-3}, options), "saddle").empty());
+    }
+  }
+}
+
 TEST_CASE("trestles: base plates of both legs lie beside each other, however thin tubes and section are") {
   const CoulombBrachistochrone track({0.95, 1.25}, Friction::from_angle(Angle::from_degrees(24.0)));
   PlateOptions options;

@@ -263,11 +263,16 @@ std::vector<Vec2> with_side_moved(std::vector<Vec2> chain, std::size_t side, dou
 std::vector<Vec2> below_tops(const std::vector<Vec2>& outline) {
   constexpr double kLevel = 1e-9;  // [m]
   const std::size_t count = outline.size();
-  // The floor line is the origin, on a side or at a corner.
+  // The floor line is the origin, on a side or at a corner, between two grooves inside the outline. It lies nearest to a side that
+  // faces up: where the section is thin the underside may be nearer than the sides of the grooves.
   std::size_t first = 0;  // the corner before it, or that at it
+  double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i) {
-    const double near = core::distance_to_segment({}, outline[i], outline[(i + 1) % count]);
-    if (near < core::distance_to_segment({}, outline[first], outline[(first + 1) % count])) first = i;
+    const Vec2 next = outline[(i + 1) % count];
+    const double near = core::distance_to_segment({}, outline[i], next);
+    if (!(next.x < outline[i].x - kLevel) || !(near < nearest)) continue;
+    nearest = near;
+    first = i;
   }
   double lowest = outline.front().y;
   for (const Vec2 corner : outline) lowest = std::min(lowest, corner.y);
@@ -373,11 +378,6 @@ std::optional<PlateSection> plate_section(const section::Measures& measures, con
   return section;
 }
 
-PlateSection PlateSection::of_unit(std::size_t unit) const {
-  PlateSection one = *this;
-  one.plates = plates_of(unit);
-  one.staggered.clear();
-  return one;
 bool SectionPlate::ends_at_floor() const {
   constexpr double kLevel = 1e-9;  // rounding: of heights that are one [m]
   const Vec2 from = middle_from();
@@ -386,6 +386,11 @@ bool SectionPlate::ends_at_floor() const {
   return std::fabs(nearer) > kLevel ? nearer > 0.0 : std::fabs(to.x) <= std::fabs(from.x) + kLevel;
 }
 
+PlateSection PlateSection::of_unit(std::size_t unit) const {
+  PlateSection one = *this;
+  one.plates = plates_of(unit);
+  one.staggered.clear();
+  return one;
 }
 
 }  // namespace glissade::parts
