@@ -437,8 +437,12 @@ class SideView {
       for (const Frame& place : part.places) {
         if (const auto* const prism = std::get_if<Prism>(&part.body)) add(*prism, place);
         if (!std::holds_alternative<AngleBar>(part.body)) continue;
-        for (const EdgeLine& line : edge_lines(part.body, 0.0))
-          lines_.push_back({seen(place.to_space(line.from)), seen(place.to_space(line.to))});
+        for (const EdgeLine& line : edge_lines(part.body, 0.0)) {
+          const Vec3 from = place.to_space(line.from);
+          const Vec3 to = place.to_space(line.to);
+          lines_.push_back({seen(from), seen(to)});
+          shapes_.push_back({{seen(from), seen(to)}, ordered(aside_of(from), aside_of(to))});
+        }
       }
     }
   }
@@ -451,6 +455,51 @@ class SideView {
     const Vec2 high{trestle.x + half, trestle.beam + kAround};
     return std::none_of(lines_.begin(), lines_.end(),
                         [&](const auto& line) { return meets(line[0], line[1], low, high); });
+  /// @param seat  what the saddle is cut to
+  /// @return whether a saddle stands beside all of it: stiffeners lean over what is upright
+  [[nodiscard]] bool is_clear(const ArcPath& seat, double aside, double beam) const {
+    constexpr double kAround = 1e-3;  // taste: of saddles [m]
+    std::vector<Vec2> saddle;
+    for (const PathVertex& vertex : seat.vertices) saddle.push_back(vertex.at);
+    saddle.push_back({seat.vertices.back().at.x, beam});
+    saddle.push_back({seat.vertices.front().at.x, beam});
+    const double half = 0.5 * kSaddle + kAround;
+    return std::none_of(shapes_.begin(), shapes_.end(), [&](const Shape& shape) {
+      return shape.aside.from < aside + half && shape.aside.to > aside - half &&
+             gap_between(shape.corners, saddle) < kAround;
+    });
+  }
+
+  }
+  /// A convex figure, and from where to where it reaches across, to the left.
+  struct Shape {
+    std::vector<Vec2> corners;
+    Span aside;
+  };
+  static Span ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
+  [[nodiscard]] double aside_of(Vec3 point) const {
+    return dot(point - in_space(placement_, {}), across(placement_));
+  }
+  /// The widest gap between two convex figures, square to an edge of either; negative where they meet.
+  static double gap_between(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
+    double widest = -std::numeric_limits<double>::infinity();
+    const auto reach = [](const std::vector<Vec2>& corners, Vec2 way) {
+      Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+      for (const Vec2 corner : corners)
+        span = {std::min(span.from, dot(corner, way)), std::max(span.to, dot(corner, way))};
+      return span;
+    };
+    for (const std::vector<Vec2>* const one : {&a, &b}) {
+      for (std::size_t i = 0; i < one->size(); ++i) {
+        const Vec2 edge = (*one)[(i + 1) % one->size()] - (*one)[i];
+        if (!(norm(edge) > 0.0)) continue;
+        const Vec2 way = (1.0 / norm(edge)) * Vec2{-edge.y, edge.x};
+        const Span first = reach(a, way);
+        const Span second = reach(b, way);
+        widest = std::max({widest, second.from - first.to, first.from - second.to});
+      }
+    }
+    return widest;
   }
 
  private:
@@ -473,6 +522,16 @@ class SideView {
     const Vec3 far = prism.depth * place.z;
     const std::array<Vec2, 4> corners = {seen(place.origin + low * up), seen(place.origin + high * up),
                                          seen(place.origin + high * up + far),
+    shapes_.push_back({{corners.begin(), corners.end()}, reach_of(prism, place)});
+  }
+  /// From where to where a plate square to the track reaches across.
+  [[nodiscard]] Span reach_of(const Prism& prism, const Frame& place) const {
+    Span reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Vec2 corner : flattened(prism.region.outline, 1e-4)) {
+      const double aside = aside_of(place.to_space({corner.x, corner.y, 0.0}));
+      reach = {std::min(reach.from, aside), std::max(reach.to, aside)};
+    }
+    return reach;
                                          seen(place.origin + low * up + far)};
     for (std::size_t i = 0; i < 4; ++i) lines_.push_back({corners[i], corners[(i + 1) % 4]});
   }
@@ -491,6 +550,7 @@ class SideView {
     return cut(from.x, to.x - from.x, low.x, high.x) && cut(from.y, to.y - from.y, low.y, high.y);
   }
 
+  std::vector<Shape> shapes_;
   const Placement& placement_;
   std::vector<std::array<Vec2, 2>> lines_;
 };
@@ -511,7 +571,7 @@ class Row {
       const auto one = standing_near(about, within, clear);
       if (!one) return false;
       // Where it is steeper there than where it was asked for, frames lean farther over it.
-      if (!view_.is_clear(one->trestle, shell_.options.supports->tube)) continue;
+      if (!view_.is_clear(one->trestle, shell_.options.supports->tube) || !saddles_clear(*one)) continue;
       return add(*one);
     }
     return false;
@@ -531,6 +591,14 @@ class Row {
         !seat_line(shell_, place->at, place->half, saddles.height[1]))
       return std::nullopt;
     return Standing{*place, clear, saddles, trestle_at(shell_, place->at, saddles)};
+  [[nodiscard]] bool saddles_clear(const Standing& one) const {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto seat = seat_line(shell_, one.place.at, one.place.half, one.saddles.height[side]);
+      if (!view_.is_clear(*seat, one.saddles.aside[side], one.trestle.beam)) return false;
+    }
+    return true;
+  }
+
   }
 
   bool add(const Standing& one) {
