@@ -190,6 +190,13 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
   CHECK(cuts.find("\n4,gore,S235,4,2,,,,,,0,0,") != std::string::npos);
   const std::string out = setting_out_csv(workshop);
   CHECK(out.find("ordinate_mm,underside mm\nstart,0,0,0,0,0,0,") != std::string::npos);
+  // What is upright rises without bound, over whatever rounding leaves of its run.
+  for (const auto& [degrees, percent] :
+       {std::pair(90.0, "90,inf"), std::pair(-90.0, "-90,-inf"), std::pair(45.0, "45,100")}) {
+    workshop.setting_out.front().slope_angle = Angle::from_degrees(degrees);
+    CHECK(setting_out_csv(workshop).find("\nstart,0,0,0,0,0,0," + std::string(percent) + ",") !=
+          std::string::npos);
+  }
   CHECK(shop_checks_csv(workshop) ==
         "rule,verdict,value,bound,where,source,sentence,certainty\n"
         "smallest hole,pass,14 mm,at least 4 mm,part 1,a source,Holes are wide enough.,secondary\n");

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -121,6 +122,15 @@ void add_sizes(const ShopPart& part, const Bar& bar, Csv& csv) {
       << "";
 }
 
+/// Rise over run in percent; of what is upright, but for rounding, without bound.
+double percent(Angle slope) {
+  constexpr double kUpright = 1e-12;  // rounding: of slope angles in a quarter of a turn
+  const double run = math::cos(slope.radians());
+  const double rise = math::sin(slope.radians());
+  if (std::fabs(run) < kUpright) return std::copysign(std::numeric_limits<double>::infinity(), rise);
+  return clean(100.0 * rise / run);
+}
+
 }  // namespace
 
 std::string cut_list_csv(const Workshop& workshop) {
@@ -183,8 +193,7 @@ std::string setting_out_csv(const Workshop& workshop) {
   for (const SettingOutPoint& point : workshop.setting_out) {
     csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << clean(point.site.x)
               << clean(point.site.y) << clean(point.site.z) << degrees(point.slope_angle)
-              << clean(100.0 * math::tan(point.slope_angle.radians())) << mm(point.radius)
-              << mm(point.ordinate);
+              << percent(point.slope_angle) << mm(point.radius) << mm(point.ordinate);
     for (const double offset : point.offsets) csv << mm(offset);
   }
   return csv.text();
