@@ -8,6 +8,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
+#include "parts/ground.hpp"
 #include "parts/joint_face.hpp"
 #include "parts/piece_mesh.hpp"
 #include "parts/print_pose.hpp"
@@ -542,6 +543,23 @@ TEST_CASE("prints: stands with an uneven top come in blocks that are lower below
     CHECK(size_of(piece.mesh).z <= 0.1);
   }
   CHECK(blocks > 10);
+}
+
+TEST_CASE("prints: feet of stands are level on the highest ground below them") {
+  PrintOptions options = on_stands(0.12);
+  options.stands->ground = {{-0.1, -0.3}, {0.2, -0.4}, {0.21, -0.35}, {0.22, -0.4}, {0.8, -0.7}};
+  const WorkshopBuild build = prints(run(), groove(), options);
+  double least = 1.0;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (!part.name.starts_with("stand_") || part.name == "stand_pin") continue;
+    for (const Frame& place : part.places) {
+      for (const Vec3& vertex : std::get<MeshBody>(part.body).mesh.vertices) {
+        const Vec3 at = place.to_space(vertex);
+        least = std::min(least, at.z - parts::ground_at(options.stands->ground, at.x));
+      }
+    }
+  }
+  CHECK(std::fabs(least) < 1e-9);
 }
 
 TEST_CASE("prints: a way out of pins or tongues without room is one") {

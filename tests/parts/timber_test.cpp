@@ -7,6 +7,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "parts/ground.hpp"
 #include "parts/refusals.hpp"
 #include "parts/timber_frame.hpp"
 #include "support/catch.hpp"
@@ -278,6 +279,48 @@ TEST_CASE("timber: long legs are braced across and along, boards end on the legs
   const auto told = testing::check_of(testing::shop_checks(bare.workshop, "timber"), "timber.brace");
   CHECK(told.verdict == ShopVerdict::warn);
   CHECK(told.bound == "at most 1.5 m");
+}
+
+TEST_CASE("timber: on a slope legs and boards stay above the ground, feet are level on its highest point") {
+  const ArcSpline track = bend(20.0, 6.0);
+  for (const double grade : {-0.5, -0.25, 0.3}) {
+    INFO("grade " << grade);
+    TimberOptions options;
+    // A hump between the rows, too.
+    options.legs = LegOptions{{{-5.0, -16.0 - 5.0 * grade},
+                               {6.0, -16.0 + 6.0 * grade},
+                               {6.9, -15.2 + 6.9 * grade},
+                               {8.0, -16.0 + 8.0 * grade},
+                               {40.0, -16.0 + 40.0 * grade}},
+                              2.0,
+                              90e-3};
+    const WorkshopBuild build = timber(track, options);
+    const std::vector<Vec2>& ground = options.legs->ground;
+    double least = 1.0;
+    double foot = 1.0;
+    for (const ShopPart& part : build.workshop.parts) {
+      const bool leg = part.name.starts_with("leg");
+      if (!leg && part.name.find("brace") == std::string::npos) continue;
+      const auto& prism = std::get<Prism>(part.body);
+      for (const Frame& place : part.places) {
+        for (const PathPiece& edge : pieces_of(prism.region.outline)) {
+          for (const double z : {0.0, prism.depth}) {
+            for (double share = 0.0; share <= 1.0; share += 0.02) {
+              const Vec2 at = point_on(edge, share);
+              const Vec3 corner = place.to_space({at.x, at.y, z});
+              const double above = corner.z - parts::ground_at(ground, corner.x);
+              least = std::min(least, above);
+              if (leg) foot = std::min(foot, above);
+            }
+          }
+        }
+      }
+    }
+    CHECK_FALSE(named(build, "cross_brace_").empty());
+    CHECK_FALSE(named(build, "long_brace_").empty());
+    CHECK(least > -1e-9);
+    CHECK(std::fabs(foot) < 1e-9);
+  }
 }
 
 TEST_CASE("timber: boards of narrow and steep ramps keep below the bearers and off the ground") {

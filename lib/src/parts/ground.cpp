@@ -1,5 +1,6 @@
 #include "parts/ground.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace glissade::parts {
@@ -12,6 +13,14 @@ double ground_at(const std::vector<Vec2>& ground, double x) {
     return ground[i].y + share * (ground[i + 1].y - ground[i].y);
   }
   return ground.back().y;
+}
+
+double highest_ground(const std::vector<Vec2>& ground, double from, double to) {
+  double highest = std::max(ground_at(ground, from), ground_at(ground, to));
+  for (const Vec2 corner : ground) {
+    if (corner.x > from && corner.x < to) highest = std::max(highest, corner.y);
+  }
+  return highest;
 }
 
 }  // namespace glissade::parts

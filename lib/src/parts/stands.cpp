@@ -131,6 +131,19 @@ Shape shape_of(const PrintJob& job, const Underside& underside, double x, double
   return shape;
 }
 
+/// The highest ground below the foot of a stand, which is level.
+double ground_below(const PrintJob& job, const Underside& underside, double x) {
+  const std::vector<Vec2>& ground = job.options.stands->ground;
+  // The higher it stands, the narrower is its foot.
+  constexpr int kRounds = 20;  // accuracy: each leaves a fifth of the last, however steep the ground
+  double level = ground_at(ground, x);
+  for (int k = 0; k < kRounds; ++k) {
+    const Shape shape = shape_of(job, underside, x, level);
+    level = highest_ground(ground, x + shape.foot[0].x, x + shape.foot[1].x);
+  }
+  return level;
+}
+
 /// The mesh of a stand, by layers across the run: outside and inside of the right cheek, of the left one.
 class StandMesh {
  public:
@@ -408,7 +421,7 @@ std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& j
     stand.at = underside.above(place.x);
     stand.what = place.what;
     stand.x = place.x;
-    stand.ground = options.ground.empty() ? level : ground_at(options.ground, place.x);
+    stand.ground = options.ground.empty() ? level : ground_below(job, underside, place.x);
     const Shape shape = shape_of(job, underside, place.x, stand.ground);
     require_room(job, place, stand.at, std::min(shape.top.front().y, shape.top.back().y) - stand.ground);
     make_blocks(job, shape, across, stand);

@@ -181,11 +181,9 @@ Trestle trestle_at(const Shell& shell, double at, const Saddles& saddles) {
   // Below a slope the beam's edge downstream is nearer to the track than the saddles, where it is wider than they are long.
   trestle.beam = std::min(low - kSaddleLeast,
                           lowest_about(shell, at, height, trestle.x, 0.5 * supports.tube) - kOffBeam);
-  // The lower of the places of both edges of the base plate: grout fills the rest.
+  // The highest below the base plate: grout fills the rest.
   const double half = 0.5 * base_side(supports);
-  trestle.ground =
-      std::max({ground_at(supports.ground, trestle.x - half), ground_at(supports.ground, trestle.x),
-                ground_at(supports.ground, trestle.x + half)});
+  trestle.ground = highest_ground(supports.ground, trestle.x - half, trestle.x + half);
   return trestle;
 }
 
@@ -455,6 +453,8 @@ class SideView {
     const Vec2 high{trestle.x + half, trestle.beam + kAround};
     return std::none_of(lines_.begin(), lines_.end(),
                         [&](const auto& line) { return meets(line[0], line[1], low, high); });
+  }
+
   /// @param seat  what the saddle is cut to
   /// @return whether a saddle stands beside all of it: stiffeners lean over what is upright
   [[nodiscard]] bool is_clear(const ArcPath& seat, double aside, double beam) const {
@@ -470,7 +470,7 @@ class SideView {
     });
   }
 
-  }
+ private:
   /// A convex figure, and from where to where it reaches across, to the left.
   struct Shape {
     std::vector<Vec2> corners;
@@ -501,8 +501,6 @@ class SideView {
     }
     return widest;
   }
-
- private:
   [[nodiscard]] Vec2 seen(Vec3 point) const {
     const Vec3 away = point - in_space(placement_, {});
     return {dot(away, along(placement_)), away.z};
@@ -522,6 +520,8 @@ class SideView {
     const Vec3 far = prism.depth * place.z;
     const std::array<Vec2, 4> corners = {seen(place.origin + low * up), seen(place.origin + high * up),
                                          seen(place.origin + high * up + far),
+                                         seen(place.origin + low * up + far)};
+    for (std::size_t i = 0; i < 4; ++i) lines_.push_back({corners[i], corners[(i + 1) % 4]});
     shapes_.push_back({{corners.begin(), corners.end()}, reach_of(prism, place)});
   }
   /// From where to where a plate square to the track reaches across.
@@ -532,8 +532,6 @@ class SideView {
       reach = {std::min(reach.from, aside), std::max(reach.to, aside)};
     }
     return reach;
-                                         seen(place.origin + low * up + far)};
-    for (std::size_t i = 0; i < 4; ++i) lines_.push_back({corners[i], corners[(i + 1) % 4]});
   }
   /// Whether some of a segment lies in a rectangle.
   static bool meets(Vec2 from, Vec2 to, Vec2 low, Vec2 high) {
@@ -550,9 +548,9 @@ class SideView {
     return cut(from.x, to.x - from.x, low.x, high.x) && cut(from.y, to.y - from.y, low.y, high.y);
   }
 
-  std::vector<Shape> shapes_;
   const Placement& placement_;
   std::vector<std::array<Vec2, 2>> lines_;
+  std::vector<Shape> shapes_;
 };
 
 /// Trestles beside each other, none on what is taken or on another one's base plates.
@@ -591,14 +589,14 @@ class Row {
         !seat_line(shell_, place->at, place->half, saddles.height[1]))
       return std::nullopt;
     return Standing{*place, clear, saddles, trestle_at(shell_, place->at, saddles)};
+  }
+
   [[nodiscard]] bool saddles_clear(const Standing& one) const {
     for (std::size_t side = 0; side < 2; ++side) {
       const auto seat = seat_line(shell_, one.place.at, one.place.half, one.saddles.height[side]);
       if (!view_.is_clear(*seat, one.saddles.aside[side], one.trestle.beam)) return false;
     }
     return true;
-  }
-
   }
 
   bool add(const Standing& one) {

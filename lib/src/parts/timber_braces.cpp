@@ -1,11 +1,13 @@
 #include "parts/timber_braces.hpp"
 
 #include "parts/body_moments.hpp"
+#include "parts/ground.hpp"
 #include "parts/plate_unit.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -83,10 +85,14 @@ double half_height(const TimberJob& job, double rise_per_run) {
 /// @param run  of the bay
 /// @return 1.5 board widths below the slanted top, one above the ground; more where steep boards ask for it
 Reach reach_of(const TimberJob& job, const Leg& leg, double run) {
-  const double width = job.options.legs->brace_width;
-  Reach reach{leg.ground + width, std::min(leg.top_left.y, leg.top_right.y) - 1.5 * width};
+  const LegOptions& options = *job.options.legs;
+  const double width = options.brace_width;
+  // Boards lie on the faces of the leg.
+  const double far = 0.5 * options.side + options.brace_thickness;
+  const double ground = highest_ground(options.ground, leg.x - far, leg.x + far);
+  Reach reach{ground + width, std::min(leg.top_left.y, leg.top_right.y) - 1.5 * width};
   const double steepest = std::max(kSteepestBay, (reach.high - reach.low) / (kMostBoards * run));
-  reach.low = std::max(reach.low, leg.ground + half_height(job, steepest) + kClear);
+  reach.low = std::max(reach.low, ground + half_height(job, steepest) + kClear);
   return reach;
 }
 
@@ -156,6 +162,35 @@ bool is_clear(const TimberJob& job, const Diagonal& diagonal, double from, doubl
   return true;
 }
 
+/// @return how far the lowest board of a bay is too near to the ground; 0: nowhere [m]
+double below_clear(const TimberJob& job, const Diagonal& diagonal, double from, double run) {
+  const double low = diagonal.heights[0];
+  const double rise = (diagonal.rises ? 1.0 : -1.0) * (diagonal.heights[1] - low) / run;
+  const double start = (diagonal.rises ? low : diagonal.heights[1]) - half_height(job, rise);
+  std::vector<double> places = {0.0, run};
+  for (const Vec2 corner : job.options.legs->ground) places.push_back(std::clamp(corner.x - from, 0.0, run));
+  double most = 0.0;
+  for (const double along : places) {
+    const double ground = ground_at(job.options.legs->ground, from + along);
+    most = std::max(most, ground + kClear - (start + rise * along));
+  }
+  return most;
+}
+
+/// @return the way into a bay above a height, the lowest board lifted clear of the ground; none where that leaves no room
+std::optional<Diagonal> above_ground(const TimberJob& job, bool rises, Reach reach, double from, double run) {
+  constexpr double kSettled = 1e-9;  // rounding [m]
+  constexpr int kTries = 20;         // budget: boards turn as they are lifted
+  for (int k = 0; k < kTries; ++k) {
+    if (!(reach.high - reach.low > 2.0 * job.options.legs->brace_width)) return std::nullopt;
+    Diagonal diagonal{rises, levels(reach.low, reach.high, run)};
+    const double lift = below_clear(job, diagonal, from, run);
+    if (lift <= kSettled) return diagonal;
+    reach.low += lift;
+  }
+  return std::nullopt;
+}
+
 /// Boards between two rows, on the outsides of the outer legs; they rise towards the shorter leg where that can be, else
 /// the other way.
 void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const BearerPlan& plan,
@@ -167,12 +202,10 @@ void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const 
   const Reach b = reach_of(job, after, run);
   const bool shorter_is_after = b.high <= a.high;
   for (const bool rises : {shorter_is_after, !shorter_is_after}) {
-    const double low = rises ? a.low : b.low;
-    const double high = rises ? b.high : a.high;
-    if (!(high - low > 2.0 * options.brace_width)) continue;
-    const Diagonal diagonal{rises, levels(low, high, run)};
-    if (!is_clear(job, diagonal, from, run)) continue;
-    const std::vector<double>& heights = diagonal.heights;
+    const Reach reach{rises ? a.low : b.low, rises ? b.high : a.high};
+    const auto diagonal = above_ground(job, rises, reach, from, run);
+    if (!diagonal || !is_clear(job, *diagonal, from, run)) continue;
+    const std::vector<double>& heights = diagonal->heights;
     for (std::size_t k = 0; k + 1 < heights.size(); ++k) {
       const double rise = heights[k + 1] - heights[k];
       ShopPart part =

@@ -238,7 +238,8 @@ Leg leg_below(const TimberJob& job, double s) {
   Leg leg;
   leg.at = s;
   leg.x = point.x;
-  leg.ground = ground_at(job.options.legs->ground, point.x);
+  // A level foot touches the highest of it; what a slope leaves below is the footing's.
+  leg.ground = highest_ground(job.options.legs->ground, point.x - half, point.x + half);
   const double slope = at.along.y / at.along.x;
   // The line touches the underside in a hollow; on a crest it lies as far below as that bends away.
   double below = 0.0;

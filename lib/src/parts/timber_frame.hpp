@@ -95,10 +95,10 @@ struct BearerPlan {
 
 /// A post from the ground to the underside of a bearer.
 struct Leg {
-  double at = 0.0;  ///< arc length of the bearer's point above its middle [m]
-  double x = 0.0;   ///< of its middle [m]
-  double ground = 0.0;
-  Vec2 top_left;  ///< of its slanted upper end
+  double at = 0.0;      ///< arc length of the bearer's point above its middle [m]
+  double x = 0.0;       ///< of its middle [m]
+  double ground = 0.0;  ///< the highest below its foot, which is level
+  Vec2 top_left;        ///< of its slanted upper end
   Vec2 top_right;
 
   [[nodiscard]] double length() const { return 0.5 * (top_left.y + top_right.y) - ground; }
