@@ -211,8 +211,7 @@ double missed_between(const ScaledProblem& problem, const Found& found, const St
   const LimitSpec& spec = problem.limits[held.limit];
   if (is_cap_along(spec)) {
     // Friction makes a change of speed of the load that is missed, over a third of the piece.
-    constexpr double kShare =
-        1.0 / 3.0;  // theory: the mean distance of a parabola's integral from its chord's, about
+    constexpr double kShare = 1.0 / 3.0;  // taste
     const double width = (knots[held.piece + 1] - knots[held.piece]) * found.track->core_length(found.z);
     const Ride& ride = problem.rides[spec.ride.value_or(0)];
     missed *= kShare * width * ride.friction_in(found.track->stations()[ends[0]].zone) / spec.bound;
