@@ -280,6 +280,36 @@ std::vector<LiftOff> lift_offs_of(const ScaledProblem& problem, const Found& fou
   return lifts;
 }
 
+Vector exceeded_caps_of(const ScaledProblem& problem, const Found& found, double by) {
+  Vector places;
+  const State state = found.rows->state(found.z, false);
+  const OnMesh on{problem, *found.track, *found.rows, state};
+  const std::vector<Station>& stations = found.track->stations();
+  for (std::size_t i = 0; i < problem.limits.size(); ++i) {
+    const LimitSpec& limit = problem.limits[i];
+    if (!is_cap_along(limit)) continue;
+    const auto off = [&](std::size_t at) { return (on.speed(i, at) - on.bound(i)) / limit.scale; };
+    for (std::size_t at = 1; at + 1 < stations.size(); ++at) {
+      const bool within = stations[at - 1].part == Part::core && stations[at + 1].part == Part::core;
+      if (!within || (limit.zone && stations[at].zone != *limit.zone)) continue;
+      const double here = off(at);
+      if (!(here > by) || here < off(at - 1) || !(here > off(at + 1))) continue;
+      // The top of the parabola through three of them.
+      const double before = stations[at - 1].sigma - stations[at].sigma;
+      const double behind = stations[at + 1].sigma - stations[at].sigma;
+      double top = 0.0;
+      if (before < 0.0 && behind > 0.0) {
+        const double slope_before = (off(at - 1) - here) / before;
+        const double slope_behind = (off(at + 1) - here) / behind;
+        const double second = (slope_behind - slope_before) / (behind - before);
+        if (second < 0.0) top = std::clamp(-0.5 * (slope_before - second * before) / second, before, behind);
+      }
+      places.push_back(stations[at].sigma + top);
+    }
+  }
+  return places;
+}
+
 std::optional<Mesh> following_limits(const ScaledProblem& problem, const Found& found, const Vector& lifts) {
   const bool smooth = std::any_of(problem.limits.begin(), problem.limits.end(), [](const LimitSpec& limit) {
     return limit.measure == Measure::curvature_rate;

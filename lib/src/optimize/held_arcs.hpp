@@ -13,6 +13,11 @@ struct LiftOff {
 };
 [[nodiscard]] std::vector<LiftOff> lift_offs_of(const ScaledProblem& problem, const Found& found);
 
+/// Where a track exceeds a cap on the speed the most, stretch by stretch, between the stations at which it is held.
+/// @param by  less is left alone, in scales of the limit
+/// @return places of the core, by its length
+[[nodiscard]] Vector exceeded_caps_of(const ScaledProblem& problem, const Found& found, double by);
+
 /// A mesh whose curvature follows a limit on the load, or a cap on the speed, wherever the track found lies at it for a
 /// stretch.
 ///

@@ -532,6 +532,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   finer_mesh_wins_.reset();
   moves_promise_ = 0.0;
   multipliers_ahead_.clear();
+  if (!found.stopped) found = held_between(problem, std::move(found));
   if (!found.stopped) found = with_far_jumps_moved(problem, std::move(found));
   if (!found.stopped) found = followed(problem, std::move(found));
   if (!found.stopped) found = bent_at_finish(problem, std::move(found));
@@ -568,6 +569,24 @@ void Searcher::settle(Candidate& candidate, Found found) {
   if (takes) candidate = std::move(other);
   if (!is_good) candidate.promising = std::move(moved);
   candidate.stopped = stopped;
+}
+
+Found Searcher::held_between(const ScaledProblem& problem, Found found) {
+  constexpr int kMostRounds = 4;  // budget
+  if (!is_optimum(found) || control_.any_track) return found;
+  HeldPlaces held(found.track->mesh().extra_breaks);
+  for (int round = 0; round < kMostRounds && !control_.stop(); ++round) {
+    const Vector places = exceeded_caps_of(problem, found, options_.limit_tolerance);
+    if (places.empty()) break;
+    Mesh mesh = mesh_again(found);
+    for (const double place : places) held.add(place, mesh.knots);
+    mesh.extra_breaks = held.places();
+    aim_at(kAimed * options_.tolerance, 3);
+    Found next = laid_anew(problem, on_mesh(problem, mesh, found.z, found));
+    if (!is_optimum(next)) break;
+    found = std::move(next);
+  }
+  return found;
 }
 
 // On a mesh that follows no load yet it costs little, and what follows begins in the better valley.

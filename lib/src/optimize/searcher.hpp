@@ -162,6 +162,9 @@ class Searcher {
                               const Found& known);
   /// The same track with a curvature that follows the load limits which it lies at.
   [[nodiscard]] Found followed(const ScaledProblem& problem, Found found);
+  /// The same with caps on the speed held where a track exceeds them between its stations: on where bends lie that counts more
+  /// than on what follows.
+  [[nodiscard]] Found held_between(const ScaledProblem& problem, Found found);
   /// The same, jumps of the curvature that lie far from where they belong brought there.
   [[nodiscard]] Found with_far_jumps_moved(const ScaledProblem& problem, Found found);
   /// Where exit speed counts a last bend over a crest, where the track carries less, may win it: too short a bend for the

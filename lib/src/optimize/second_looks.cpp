@@ -211,8 +211,9 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
   constexpr double kShares[] = {0.4, 0.1, 0.025};  // taste: of the stretch that a bend goes into
   constexpr int kMostSteps = 6;                    // budget
   constexpr double kPays = 1e-6;                   // accuracy: that of a time
-  Found best = known;
   begin_margins(problem);
+  // What is gone too fast between stations would be won by bends that put stations elsewhere.
+  Found best = held_between(problem, known);
   std::vector<Vector> tried;  // the same beginnings come back where stretches are short
   const auto wins = [&](std::size_t bend, double share) {
     const std::vector<Span> stretches = stretches_at_cap(problem, best);
@@ -226,7 +227,11 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
     mesh.fine_turns = begun_with.mesh.fine_turns;
     aim_at(kAimed * options_.tolerance, 3);
     Found next = minimise(problem, mesh, begun_with.z, margins_, control_);
-    const bool does = is_optimum(next) && best.objective - next.objective > kPays * std::fabs(best.objective);
+    const auto is_better = [&] {
+      return is_optimum(next) && best.objective - next.objective > kPays * std::fabs(best.objective);
+    };
+    if (is_better()) next = held_between(problem, std::move(next));
+    const bool does = is_better();
     if (!does) return false;
     best = std::move(next);
     tried.clear();
