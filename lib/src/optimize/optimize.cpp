@@ -420,7 +420,6 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   report.exit_speed = best.judgement.exit_speed;
   report.checks = best.judgement.checks;
   leave_out_untouched(report.checks, report.active);
-  end_with_track(best.track->length(), report.active);
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = left_to_win(best, priced, onto_finest);
 }
@@ -579,6 +578,7 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
   control.stop = [&] { return patience.ends(); };
   Optimum optimum = searched(problem, options, patience, control, progress);
   meet_finish(problem, options.limit_tolerance, optimum);
+  if (optimum.centerline) end_with_track(optimum.centerline->length(), optimum.report.active);
   optimum.report.iterations = control.rounds;
   optimum.report.evaluations = control.evaluations;
   optimum.report.seconds = patience.seconds();
