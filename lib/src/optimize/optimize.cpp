@@ -393,11 +393,20 @@ void leave_out_untouched(const std::vector<LimitCheck>& checks, std::vector<Acti
   });
 }
 
-/// Prices may be those of a track on a finer mesh, which is a little longer: no place lies behind the end of the one told.
-void end_with_track(double length, std::vector<ActiveLimit>& active) {
+/// Brings places on one track to another one, of a little more or less length between the same straight ends.
+/// @param from,to  their lengths [m]
+void carry_places(const ScaledProblem& problem, double from, double to, std::vector<ActiveLimit>& active) {
+  const double lead_in = problem.lead_in * problem.chord;
+  const double ends = lead_in + problem.lead_out * problem.chord;
+  const auto carried = [&](double s) {
+    if (s <= lead_in) return s;
+    const double behind = from - (ends - lead_in);  // where the last straight end begins
+    if (s >= behind) return s + (to - from);
+    return lead_in + (s - lead_in) * (to - ends) / (from - ends);
+  };
   for (ActiveLimit& limit : active) {
     for (Stretch& stretch : limit.where)
-      stretch = {std::min(stretch.from, length), std::min(stretch.to, length)};
+      stretch = {std::min(carried(stretch.from), to), std::min(carried(stretch.to), to)};
   }
 }
 
@@ -420,6 +429,7 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   report.exit_speed = best.judgement.exit_speed;
   report.checks = best.judgement.checks;
   leave_out_untouched(report.checks, report.active);
+  carry_places(*best.problem, priced.length, best.track->length(), report.active);
   report.first_order_residual = found.residual;
   report.finer_mesh_wins = left_to_win(best, priced, onto_finest);
 }
@@ -553,6 +563,9 @@ void meet_finish(const Problem& problem, double tolerance, Optimum& optimum) {
   const auto met = std::make_shared<const ClothoidSpline>(entry, std::move(segments));
   referee::Judgement judgement = referee::judge_track(problem, met, referee::kRefereeSamples);
   if (!judgement.arrived || judgement.worst > tolerance) return;
+  for (ActiveLimit& active : optimum.report.active) {
+    for (Stretch& stretch : active.where) stretch = {scale * stretch.from, scale * stretch.to};
+  }
   optimum.centerline = met;
   optimum.report.travel_time = judgement.travel_time;
   optimum.report.exit_speed = judgement.exit_speed;
@@ -578,7 +591,6 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
   control.stop = [&] { return patience.ends(); };
   Optimum optimum = searched(problem, options, patience, control, progress);
   meet_finish(problem, options.limit_tolerance, optimum);
-  if (optimum.centerline) end_with_track(optimum.centerline->length(), optimum.report.active);
   optimum.report.iterations = control.rounds;
   optimum.report.evaluations = control.evaluations;
   optimum.report.seconds = patience.seconds();

@@ -405,6 +405,8 @@ PricedLimits priced_limits(const ScaledProblem& problem, const Found& found, con
     }
   }
   result.limits = told(std::move(limits));
+  const double core = at.found.track->core_length(at.found.z);
+  result.length = (problem.lead_in + core + problem.lead_out) * problem.chord;
   result.least = at.finest.objective;
   result.rest = at.rest;
   const double known = result.better ? result.better->objective : found.objective;

@@ -26,6 +26,7 @@ namespace glissade::optimizer {
 /// @param ahead  multipliers of each limit on such a mesh (Outlook::by_limit); none where it was not looked at
 struct PricedLimits {
   std::vector<ActiveLimit> limits;
+  double length = 0.0;  ///< of the track that their places are on [m]: on a finer mesh it is another one
   /// An optimum that is to be the answer instead: with moved knots, or on the finest of these meshes where that wins more
   /// than a time's accuracy.
   std::optional<Found> better;
