@@ -160,10 +160,10 @@ class Searcher {
   /// The search on a mesh laid for a track, once more by way of any track that keeps the limits if it gets lost.
   [[nodiscard]] Found on_mesh(const ScaledProblem& problem, const Mesh& mesh, const Vector& beginning,
                               const Found& known);
-  /// The same track with a curvature that follows the load limits which it lies at.
+  /// The same track with a curvature that follows the limits on loads and the caps on the speed which it lies at.
   [[nodiscard]] Found followed(const ScaledProblem& problem, Found found);
-  /// The same with caps on the speed held where a track exceeds them between its stations: on where bends lie that counts more
-  /// than on what follows.
+  /// The same with caps on the speed held where the track exceeds them between its stations. It comes before jumps and bends are
+  /// moved: they would go where stations miss what is exceeded.
   [[nodiscard]] Found held_between(const ScaledProblem& problem, Found found);
   /// The same, jumps of the curvature that lie far from where they belong brought there.
   [[nodiscard]] Found with_far_jumps_moved(const ScaledProblem& problem, Found found);

@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 5> kGoalWords = {"least-drop", "least-len
 struct RuledBound {
   double value = 0.0;
   const Rule* rule = nullptr;
-  double by_speed = 0.0;  ///< d(value)/d(v0), of a rule that counts with v0
+  double by_speed = 0.0;  ///< d(value)/d(v0), of a rule that counts with v0 or with the speed of a ride
 };
 
 struct RuledLetters {
