@@ -8,6 +8,7 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -236,6 +237,28 @@ TEST_CASE("of what flies over the start nothing is told that would follow from i
   require_nulls(told["rides"][0], {"stall_friction_angle_deg", "stall_margin_deg"});
   CHECK(verdict(design, "chute.2.stall-margin").verdict == RuleVerdict::cannot_be_judged);
   CHECK(verdict(design, "chute.8.speed").verdict == RuleVerdict::cannot_be_judged);
+}
+
+TEST_CASE("limits on motion are held against no ride that flies over its start") {
+  std::string text =
+      belt_fed("{low: 20 deg, nominal: 24 deg, high: 28 deg}", "belt_speed: 3 m/s, drop: 50 mm");
+  text += "limits: {speed: {highest: 1 m/s}, slope_angle: {highest: 80 deg}}\n";
+  const Design design = parse_design(text, "d.yaml");
+  const Track track = solve(design);
+  REQUIRE(ride_end(track.motion) == RideEnd::flies_over_start);
+  const auto check_of = [&](LimitId id) {
+    return std::find_if(track.limit_checks.begin(), track.limit_checks.end(),
+                        [&](const LimitCheck& check) { return check.limit.id == id; });
+  };
+  CHECK(check_of(LimitId::speed) == track.limit_checks.end());
+  CHECK(check_of(LimitId::lowest_normal_load) == track.limit_checks.end());
+  REQUIRE(check_of(LimitId::slope_angle) != track.limit_checks.end());
+  CHECK(check_of(LimitId::slope_angle)->violation == 0.0);
+  for (const LimitId arrival : {LimitId::arrival_at_low_friction, LimitId::arrival_at_high_friction}) {
+    REQUIRE(check_of(arrival) != track.limit_checks.end());
+    CHECK(check_of(arrival)->reached == 0.0);
+    CHECK(check_of(arrival)->violation > 0.0);
+  }
 }
 
 }  // namespace chute_arrivals_test

@@ -102,4 +102,24 @@ TEST_CASE("stations: of a sliding point there is no column of a law") {
   CHECK(columns.size() == 14);
 }
 
+TEST_CASE("stations: of a feed that flies over the start they tell of the track alone") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 1.2 m, z: 1.4 m}}\n"
+      "body: {friction_angle: {low: 24 deg, nominal: 27 deg, high: 31 deg}}\n"
+      "stream: {mass_flow: 400 t/h, bulk_density: 1600 kg/m^3}\n"
+      "feed: {kind: belt, belt_speed: 3.6 m/s, pulley_radius: 400 mm, drop: 600 mm}\ncenterline: {kind: "
+      "straight}\n"
+      "cross_section: {kind: u-channel, width: 800 mm, wall_height: 400 mm, thickness: 8 mm}\n",
+      "d.yaml");
+  const Columns columns = columns_of(solve(design));
+  for (const std::string name : {"time_s", "speed_m_per_s", "normal_load_m_per_s2", "burden_depth_m",
+                                 "floor_wear_w_per_m2", "speed_low_m_per_s", "burden_depth_high_m"}) {
+    INFO(name);
+    REQUIRE(columns.contains(name));
+    for (const std::string& cell : columns.at(name)) CHECK(cell.empty());
+  }
+  for (const std::string& cell : columns.at("slope_angle_deg"))
+    CHECK(std::stod(cell) == Approx(53.13010235415599));
+}
+
 }  // namespace stations_test

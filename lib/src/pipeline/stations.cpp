@@ -16,10 +16,15 @@
 namespace glissade {
 namespace {
 
+/// Up to where a body rides; below nothing for one that flies over the start.
+double end_of_ride(const Motion& motion) {
+  return lands(motion) ? motion.distance() : -1.0;
+}
+
 /// The body at the stations, none from where its ride ends.
 std::vector<std::optional<MotionState>> states_at(const Motion& motion,
                                                   const std::vector<double>& arc_lengths) {
-  const auto end = std::upper_bound(arc_lengths.begin(), arc_lengths.end(), motion.distance());
+  const auto end = std::upper_bound(arc_lengths.begin(), arc_lengths.end(), end_of_ride(motion));
   const std::vector<MotionState> ridden = motion.at(std::vector<double>(arc_lengths.begin(), end));
   std::vector<std::optional<MotionState>> states(ridden.begin(), ridden.end());
   states.resize(arc_lengths.size());
@@ -31,7 +36,7 @@ StationColumn column(std::string name, const Motion& motion, const std::vector<d
                      const std::function<double(double)>& value) {
   StationColumn result{std::move(name), {}};
   for (const double s : arc_lengths) {
-    result.values.push_back(s <= motion.distance() ? std::optional(value(s)) : std::nullopt);
+    result.values.push_back(s <= end_of_ride(motion) ? std::optional(value(s)) : std::nullopt);
   }
   return result;
 }

@@ -180,6 +180,12 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
     Body body = problem.body;
     body.friction = friction;
     const Motion motion(track, body, problem.gravity);
+    // What flies over the start is no ride. A search has a limit of its own for that, and ends as near to it as to any other.
+    if (broken_rides == BrokenRides::judged && !lands(motion)) {
+      judgement.arrived = false;
+      if (arrival) watches.at_arrival(*arrival, 0.0, track->length());
+      continue;
+    }
     if (arrival) watches.at_arrival(*arrival, motion.distance(), track->length());
     if (!motion.arrived()) {
       judgement.arrived = false;
