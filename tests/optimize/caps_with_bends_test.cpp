@@ -182,4 +182,18 @@ TEST_CASE("Where a cap on the speed takes a bend the optimum of its arcs is foun
   }
 }
 
+TEST_CASE("What a finer mesh wins between its stations alone is not told to be left", "[optimize]") {
+  // There meshes go faster than the cap between stations, and knots that move win 8e-4 by that.
+  std::vector<double> caps{6.34};
+  if (testing::thorough()) caps = {6.33, 6.34};
+  for (const double cap : caps) {
+    const Optimum optimum = optimize(with_cap(cap));
+    REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+    const double least = FallsAndRides(cap).least_time();
+    CAPTURE(cap, optimum.report.travel_time, least);
+    CHECK(optimum.report.travel_time <= (1.0 + 2e-4) * least);
+    CHECK(optimum.report.finer_mesh_wins.value() <= optimum.report.travel_time / least - 1.0 + 1e-6);
+  }
+}
+
 }  // namespace caps_with_bends_test

@@ -154,16 +154,18 @@ class Course {
       take(foothold.passages, searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
   }
 
+  /// What became of a track that was to be the best one.
+  enum class Onto { untried, no_better, taken };
   /// From the best one to another optimum of its problem, where that wins something.
-  /// @return whether that is the best one now
-  bool onto(Found found) {
+  Onto onto(Found found) {
     constexpr double kPays = 5e-7;  // accuracy: half that of a time
     const double known = best_->found->objective;
-    if (stopped_ || !(known - found.objective > kPays * std::fabs(known))) return false;
+    if (stopped_ || !(known - found.objective > kPays * std::fabs(known))) return Onto::untried;
     const Candidate end = searcher_.ended_on(*best_, std::move(found));
     const bool converged = end.kept && !end.stopped && end.found->residual <= options_.tolerance;
-    if (converged) take(way_, end);
-    return converged && best_->found->objective < known;
+    if (!converged) return Onto::untried;
+    take(way_, end);
+    return best_->found->objective < known ? Onto::taken : Onto::no_better;
   }
 
   /// Where a body at rest turns down at once: the same track, ever tighter there.
@@ -419,7 +421,13 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
     priced = priced_limits(*known.problem, *known.found, known.multipliers_ahead, options, control);
   }
   report.active = std::move(priced.limits);
-  const bool onto_finest = priced.better && course.onto(std::move(*priced.better)) && priced.is_finest;
+  const Course::Onto onto = priced.better ? course.onto(std::move(*priced.better)) : Course::Onto::untried;
+  const bool onto_finest = onto == Course::Onto::taken && priced.is_finest;
+  // What it won between its stations it has lost again where limits are held there, too.
+  if (onto == Course::Onto::no_better) {
+    priced.least = course.best().found->objective;
+    priced.rest = 0.0;
+  }
   const Found blunt = *course.best().found;
   course.sharpen_crest();
   const Candidate& best = course.best();
