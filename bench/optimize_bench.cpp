@@ -1,16 +1,14 @@
-// How long the search for the fastest track takes: without limits, with five, and the slowest of 300 random
-// ones. Where IPOPT is installed, a plain collocation of the same problem is solved beside it; the counters
-// tell each one's relative excess over the exact optimum.
+// How long the search for the fastest track takes: without limits and with five. Where IPOPT is installed, a plain
+// collocation of the same problem is solved beside it; the counters tell each one's relative excess over the exact
+// optimum.
 
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/ore.hpp"
-#include "optimize/random_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <vector>
 
 #include <benchmark/benchmark.h>
@@ -64,29 +62,6 @@ void stream(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(optimize(problem).report.travel_time);
 }
 BENCHMARK(stream)->Unit(benchmark::kMillisecond);
-
-void slowest_of_300(benchmark::State& state) {
-  for (auto _ : state) {
-    testing::Random random = testing::seeded_random();
-    std::vector<double> seconds;
-    double slowest_solved = 0.0;
-    for (int i = 0; i < 300; ++i) {
-      const Problem problem = testing_problems::random_limited(random);
-      // Processor time: what else the machine does is no part of the answer.
-      const std::clock_t begin = std::clock();
-      const Optimum optimum = optimize(problem);
-      seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-      if (optimum.centerline) slowest_solved = std::max(slowest_solved, seconds.back());
-    }
-    std::sort(seconds.begin(), seconds.end());
-    const auto above = std::upper_bound(seconds.begin(), seconds.end(), 1.0);
-    state.counters["above_1s"] = static_cast<double>(seconds.end() - above);
-    state.counters["median_ms"] = 1e3 * seconds[seconds.size() / 2];
-    state.counters["slowest_ms"] = 1e3 * seconds.back();
-    state.counters["slowest_solved_ms"] = 1e3 * slowest_solved;
-  }
-}
-BENCHMARK(slowest_of_300)->Unit(benchmark::kSecond)->Iterations(1);
 
 #ifdef GLISSADE_HAS_IPOPT
 /// The w-form on a polygon: unknown slope angles of its sides, w at its corners, length; sides even in
