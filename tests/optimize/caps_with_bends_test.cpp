@@ -164,7 +164,7 @@ class FallsAndRides {
 }  // namespace
 
 TEST_CASE("Where a cap on the speed takes a bend the optimum of its arcs is found", "[optimize]") {
-  std::vector<double> caps{6.36, 6.367};
+  std::vector<double> caps{6.36};
   if (testing::thorough()) caps = {6.30, 6.32, 6.3595, 6.36, 6.3665, 6.367};
   double before = HUGE_VAL;
   for (const double cap : caps) {
