@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <sstream>
 #include <vector>
 
@@ -322,5 +323,28 @@ TEST_CASE("strip: coarse stations find the same place as fine ones") {
   for (const int samples : {2, 5, 20, 400}) {
     INFO(samples << " stations");
     CHECK(closest(track, envelope, further, samples).value == Approx(0.1).margin(1e-9));
+  }
+}
+
+TEST_CASE("strip: how deep a wall that is folded over reaches into a half-plane is told to a millionth") {
+  // A valley tighter than the wall is high, then a straight: the corner of the start face is on the top of the straight's wall.
+  const double slope = 40.0 * std::numbers::pi / 180.0;
+  const double end = -10.0 * std::numbers::pi / 180.0;
+  const double radius = 0.4;
+  const ClothoidSpline track(Angle::from_radians(slope),
+                             {{radius * (slope - end), 1.0 / radius, 1.0 / radius}, {2.0, 0.0, 0.0}});
+  const CenterlinePoint joint = track.at(radius * (slope - end));
+  const auto up = [](double angle) { return Vec2{std::sin(angle), -std::cos(angle)}; };
+  for (const double height : {0.41, 0.45, 0.5, 0.6}) {
+    const double along = (height + dot(Vec2{joint.x, joint.drop}, up(end))) / dot(up(slope), up(end));
+    const Vec2 corner = along * up(slope);
+    const Vec2 forbidden = up(end) - Vec2{std::cos(slope), std::sin(slope)};
+    for (const double deep : {0.003, 0.07, 5.0}) {
+      const Region region = Region::half_plane(corner - (deep / norm(forbidden)) * forbidden, forbidden);
+      const Approach least = closest(track, {0.04, height, 0.0}, region);
+      CAPTURE(height, deep, least.value);
+      CHECK(least.value <= -(1.0 - 2e-6) * deep);
+      CHECK(least.value >= -deep - 1e-9);
+    }
   }
 }

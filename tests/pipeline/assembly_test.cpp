@@ -141,3 +141,30 @@ TEST_CASE("binary STL is too coarse for wide solids as it is for long ones, and 
     CHECK_NOTHROW(built_at(2.0 * std::sqrt(3.0) * 0x1p-23 * std::hypot(half + 0.01, 9.0)));
   }
 }
+
+TEST_CASE("a track along which no solid can be built is told with a warning, as a build refuses it") {
+  const auto design_with = [](const std::string& walls) {
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 3 m, z: 6 m}}\n"
+        "body: {friction_angle: 1 deg, entry_speed: 12 m/s}\n"
+        "centerline: {kind: segments, entry_slope_angle: 38.165 deg, segments: [{to_slope_angle: 57.009 "
+        "deg, radius: -0.359 m}, {length: 0.753 m}, {to_slope_angle: -41.493 deg, radius: 0.574 m}, "
+        "{length: 0.384 m}]}\n"
+        "cross_section: {kind: half-pipe, width: 0.529 m, thickness: 0.026 m, wall_height: " +
+            walls + "}\nlimits: {lowest_normal_load: none, stay_below: [{line: [[3 m, 9 m], [5 m, 9 m]]}]}\n",
+        "d.yaml");
+  };
+  const Design high = design_with("0.774 m");
+  const Track track = solve(high);
+  const std::vector<Issue> told = warnings(high, track);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].where == high.where("cross_section"));
+  CHECK_THAT(told[0].what,
+             Contains("it reaches 1.038 m above the floor, further than the track has room for"));
+  CHECK_THAT(told[0].what, Contains("no solid can be built along this track"));
+  REQUIRE_THROWS_AS(assemble(high, track), InputError);
+  // What it advises is 903 mm above the floor, 264.5 mm of them the round bottom's.
+  const Design low = design_with("0.63 m");
+  CHECK(warnings(low, solve(low)).empty());
+  CHECK_NOTHROW(assemble(low, solve(low)));
+}

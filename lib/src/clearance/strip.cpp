@@ -19,7 +19,7 @@ constexpr int kDeepest = 40;
 // Halvings that find the foot of a point on the track.
 constexpr int kFootSteps = 50;
 // Depths are known to this share of themselves.
-constexpr double kDepthAccuracy = 0.01;
+constexpr double kDepthAccuracy = 1e-6;  // accuracy: of a depth, below that of a limit
 // Heights that differ by less than this share of the envelope's are the same.
 constexpr double kSameHeight = 1e-9;
 

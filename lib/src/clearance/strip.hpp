@@ -28,7 +28,7 @@ struct Approach {
 ///   The cell between two stations lies within that of the hull of their normals: a lower bound of its
 ///   distance. Cells that may hold the least one are halved until the bounds meet.
 /// Accuracy: least() exceeds the true least distance by no more than `accuracy`, as long as that is positive,
-///   and its sign is right; a negative one is the depth to 1 %, as far as Region tells depths; on each smooth piece curvature is taken to be monotone or of one sign.
+///   and its sign is right; a negative one is the depth to a millionth, as far as Region tells depths; on each smooth piece curvature is taken to be monotone or of one sign.
 class Strip {
  public:
   /// @param stations  points of the centerline from start to finish, its breaks among them

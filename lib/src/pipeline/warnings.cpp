@@ -9,7 +9,9 @@
 #include "glissade/motion/stall_friction.hpp"
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/section/measures.hpp"
+#include "glissade/solid/sweep.hpp"
 
+#include "pipeline/cross_section.hpp"
 #include "pipeline/probes.hpp"
 
 namespace glissade {
@@ -186,6 +188,19 @@ std::optional<Issue> belt_too_fast(const Design& design) {
       "a slower belt, or a longer drop"};
 }
 
+/// A section that finds no room along the track: clearances are told of a solid that cannot be made.
+std::optional<Issue> no_room_for_section(const Design& design, const Track& track) {
+  constexpr double kCoarse = 1e-3;  // taste: of the section's height
+  if (!design.cross_section || tells_of_track_alone(design)) return {};
+  const CrossSection section(*design.cross_section);
+  const double tolerance = std::max(design.mesh.tolerance, kCoarse * (section.highest() - section.lowest()));
+  auto issue = obstacle_to_sweep(*track.centerline, section, tolerance);
+  if (!issue) return {};
+  issue->where = design.where("cross_section");
+  issue->what += "; no solid can be built along this track";
+  return issue;
+}
+
 }  // namespace
 
 std::vector<Issue> warnings(const Design& design, const Track& track) {
@@ -200,6 +215,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   if (auto issue = radius_open(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);
   if (auto issue = belt_too_fast(design)) found.push_back(*std::move(issue));
+  if (auto issue = no_room_for_section(design, track)) found.push_back(*std::move(issue));
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));
   return found;
 }

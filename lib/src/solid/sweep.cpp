@@ -193,7 +193,7 @@ class Sweeper {
             kSagittaAtTrims * fineness.chord_tolerance, section.varies()} {}
 
   /// Lays out the mesh without making it.
-  /// @return false if some level of the section does not lead from start to finish: see refuse()
+  /// @return false if some level of the section does not lead from start to finish: see refusal()
   [[nodiscard]] bool lay_out() {
     make_levels();
     make_loops();
@@ -209,7 +209,10 @@ class Sweeper {
     return deviation_ + moved_ + section_.chord_error(fineness_.outline_tolerance);
   }
 
-  [[noreturn]] void refuse() const { refuse_section(centerline_, section_, *curves_, blocked_height_); }
+  /// Why a level does not.
+  [[nodiscard]] Issue refusal() const {
+    return section_issue(centerline_, section_, *curves_, blocked_height_);
+  }
 
   [[nodiscard]] Solid make() const {
     Solid solid;
@@ -566,7 +569,26 @@ class Sweeper {
   std::vector<Loop> loops_;
 };
 
+// A piece of a level that is shorter than the steps may have been missed: so often finer steps look again.
+constexpr int kFinerForRoom = 3;  // budget
+constexpr double kFiner = 0.2;    // taste
+
 }  // namespace
+
+std::optional<Issue> obstacle_to_sweep(const Centerline& track, const CrossSection& section,
+                                       double tolerance) {
+  const WithBreaks centerline(track, Widening(section).knots_between(0.0, track.length()));
+  const Placement placement;
+  const SweepOptions options{.tolerance = tolerance};
+  check_options(centerline, section, placement, options);
+  const Planner planner(centerline, section, options);
+  for (int attempt = 1;; ++attempt, tolerance *= kFiner) {
+    const Fineness fineness = planner.fineness(tolerance);
+    Sweeper sweeper(centerline, section, placement, planner, fineness);
+    if (sweeper.lay_out()) return std::nullopt;
+    if (attempt == kFinerForRoom) return sweeper.refusal();
+  }
+}
 
 Solid sweep(const Centerline& track, const CrossSection& section, const Placement& placement,
             const SweepOptions& options) {
@@ -574,7 +596,6 @@ Solid sweep(const Centerline& track, const CrossSection& section, const Placemen
   check_options(centerline, section, placement, options);
   const Planner planner(centerline, section, options);
   constexpr int kAttempts = 6;
-  constexpr int kFinerForRoom = 3;
   double tolerance = options.tolerance;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Fineness fineness = planner.fineness(tolerance);
@@ -582,9 +603,8 @@ Solid sweep(const Centerline& track, const CrossSection& section, const Placemen
     Sweeper sweeper(centerline, section, placement, planner, fineness);
     const bool leads_through = sweeper.lay_out();
     if (leads_through && sweeper.deviation() <= options.tolerance) return sweeper.make();
-    // A piece of a level that is shorter than the steps may have been missed: finer steps see it.
-    if (!leads_through && attempt + 1 >= kFinerForRoom) sweeper.refuse();
-    tolerance *= leads_through ? 0.6 : 0.2;
+    if (!leads_through && attempt + 1 >= kFinerForRoom) throw InputError(sweeper.refusal());
+    tolerance *= leads_through ? 0.6 : kFiner;
   }
   if (section.varies()) refuse_fine_widening(options.tolerance);
   throw InternalError({"", "the sweep misses its tolerance of " + length_text(options.tolerance), "", ""});

@@ -24,7 +24,7 @@ std::string radius_text(double curvature) {
 
 }  // namespace
 
-void refuse_section(const Centerline& centerline, const CrossSection& section, const LevelCurves& curves,
+Issue section_issue(const Centerline& centerline, const CrossSection& section, const LevelCurves& curves,
                     double height) {
   const Obstacle obstacle = *curves.trims(height).obstacle;
   const Station station = station_at(centerline, obstacle.s);
@@ -53,7 +53,7 @@ void refuse_section(const Centerline& centerline, const CrossSection& section, c
   }
   issue.hint = largest > 0.0 ? "a section that reaches at most " + length_text(largest) + " " + direction
                              : "a track that does not meet itself";
-  throw InputError(issue);
+  return issue;
 }
 
 void refuse_widening(double from, double to) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/core/error.hpp"
 #include "glissade/section/cross_section.hpp"
 
 #include "solid/level_curves.hpp"
@@ -9,9 +10,8 @@ namespace glissade::solid {
 
 /// Tells why a section cannot follow a track, where, and how far it may reach.
 /// @param height  of a level that meets an obstacle
-/// @throws InputError always
-[[noreturn]] void refuse_section(const Centerline& centerline, const CrossSection& section,
-                                 const LevelCurves& curves, double height);
+[[nodiscard]] Issue section_issue(const Centerline& centerline, const CrossSection& section,
+                                  const LevelCurves& curves, double height);
 
 /// Tells that the width changes where the section folds over: the two branches that meet there are not of one width.
 /// @param from,to  arc lengths between which it folds over [m]

@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/core/capacity.hpp"
+#include "glissade/core/error.hpp"
 #include "glissade/route/placement.hpp"
 #include "glissade/section/cross_section.hpp"
 #include "glissade/solid/triangle_mesh.hpp"
@@ -60,6 +61,13 @@ struct Solid {
 /// @throws Interrupted if options.stop asks for it
 [[nodiscard]] Solid sweep(const Centerline& centerline, const CrossSection& section,
                           const Placement& placement, const SweepOptions& options = {});
+
+/// What keeps a section from following a track, at a fraction of what a mesh takes: where sweep() has no mesh to give for it.
+/// @param tolerance  of the mesh that is laid out for it, and laid out finer before anything is said [m]; > 0
+/// @return where it is, and how far the section may reach there; none where every level leads from the start face to the finish face
+/// @throws InputError as sweep() does of its tolerance
+[[nodiscard]] std::optional<Issue> obstacle_to_sweep(const Centerline& centerline,
+                                                     const CrossSection& section, double tolerance);
 
 /// Stated bound of the relative error of Solid::exact_volume, measured in docs/accuracy.md: V = A S - M dphi
 /// to rounding where nothing is trimmed (A area, S arc length, M first moment, dphi angle turned towards the
