@@ -65,6 +65,30 @@ std::string refusal(std::vector<TabulatedPoint> rows) {
 
 }  // namespace
 
+TEST_CASE("a table takes rows where a curve bends, not where rounding decides") {
+  // Of a curve with many breaks, next to an unbounded curvature lie stretches that turn by hardly more than rounding.
+  class Another final : public Centerline {
+   public:
+    explicit Another(const Centerline& of) : of_(of) {}
+    [[nodiscard]] std::string_view kind() const noexcept override { return "another"; }
+    [[nodiscard]] double length() const noexcept override { return of_.length(); }
+    [[nodiscard]] CenterlinePoint at(double s) const override { return of_.at(s); }
+    [[nodiscard]] double slope_angle(double s) const override { return of_.slope_angle(s); }
+    [[nodiscard]] Direction direction(double s) const override { return of_.direction(s); }
+    [[nodiscard]] std::vector<double> breaks() const override { return of_.breaks(); }
+    [[nodiscard]] bool unbounded_curvature_at_start() const noexcept override {
+      return of_.unbounded_curvature_at_start();
+    }
+
+   private:
+    const Centerline& of_;
+  };
+  const CoulombBrachistochrone curve({3.0, 2.0}, Friction::from_angle(Angle::from_degrees(17.0)));
+  const TabulatedCurve table(table_of(curve));
+  CHECK(table_of(table).size() == table.rows().size());
+  CHECK(table_of(Another(table)).size() < 40 * table.rows().size());
+}
+
 TEST_CASE("a table of a curve is that curve, for bodies of any friction") {
   for (const Ridden& ridden : curves()) {
     INFO(ridden.name);

@@ -10,6 +10,7 @@
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -124,6 +125,29 @@ TEST_CASE("a frozen track rides as the track that was found, at its own and at o
     const auto twice = directory / "twice.yaml";
     write_frozen_design(twice, frozen, again);
     CHECK(solve(read_design(twice)).motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a frozen track that is frozen again has as many rows, and rides the same") {
+  const TempDir directory;
+  const auto rows_of = [&](const std::string& name) {
+    const std::string bytes = bytes_of(directory / name);
+    return std::count(bytes.begin(), bytes.end(), '\n');
+  };
+  for (const double run : {2.0, 2.5, 3.0, 4.0}) {
+    INFO("run " << run);
+    const Design design =
+        parse_design("glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: " + std::to_string(run) +
+                         " m, z: 0 m}}\nbody: {friction_angle: 17 deg}\n",
+                     directory / "design.yaml");
+    const Track found = solve(design);
+    write_frozen_design(directory / "once.yaml", design, found);
+    const Design once = read_design(directory / "once.yaml");
+    write_frozen_design(directory / "twice.yaml", once, solve(once));
+    CHECK(rows_of("twice.csv") == rows_of("once.csv"));
+    const Track twice = solve(read_design(directory / "twice.yaml"));
+    CHECK(twice.motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-12));
+    CHECK(twice.motion.exit_speed() == Approx(found.motion.exit_speed()).epsilon(1e-12));
   }
 }
 

@@ -346,6 +346,7 @@ TabulatedCurve::TabulatedCurve(std::vector<TabulatedPoint> rows) {
       append(rows[i - 1], rows[i]);
     }
   }
+  rows_ = std::move(rows);
 }
 
 /// Adds the stretch between two rows, as long as its chord asks for.
@@ -541,6 +542,8 @@ class TableRows {
   [[nodiscard]] bool follows_cubic(double a, double b) const {
     const double slope = 1e-12 * coarser_;
     const double most_turning = 1e-10 * coarser_;
+    // Differences of slope angles are known to a few of their last digits: no halving makes the turning agree better.
+    constexpr double kRounding = 1e-14;  // rounding: of angles up to a right one [rad]
     const double width = b - a;
     // What comes right before b counts: curvature may jump there.
     const double near = std::nextafter(b, a);
@@ -554,7 +557,7 @@ class TableRows {
       const double p = a + u * width;
       const double turning = most_turning * (1.0 + std::fabs(rise_from) + std::fabs(rise_to));
       if (std::fabs(value_of(cubic, u) - curve_.slope_angle(place(p))) > slope) return false;
-      if (std::fabs(rise_of(cubic, u) - rise(p) * width) > turning * width) return false;
+      if (std::fabs(rise_of(cubic, u) - rise(p) * width) > turning * width + kRounding) return false;
     }
     return true;
   }
@@ -567,6 +570,7 @@ class TableRows {
 }  // namespace
 
 std::vector<TabulatedPoint> table_of(const Centerline& curve) {
+  if (const auto* const tabulated = dynamic_cast<const TabulatedCurve*>(&curve)) return tabulated->rows();
   const std::vector<double> breaks = curve.breaks();
   TableRows table(curve);
   for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {

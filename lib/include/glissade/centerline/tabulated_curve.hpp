@@ -57,6 +57,9 @@ class TabulatedCurve final : public Centerline {
   [[nodiscard]] std::vector<double> breaks() const override { return breaks_; }
   [[nodiscard]] bool unbounded_curvature_at_start() const noexcept override { return unbounded_; }
 
+  /// @return those that it was made of, counted from the start, x growing towards the finish; jumps of curvature in two rows
+  [[nodiscard]] const std::vector<TabulatedPoint>& rows() const noexcept { return rows_; }
+
  private:
   /// The path of a body in free flight: its slope t = tan(zeta) grows by `rate` per run.
   struct Flight {
@@ -80,6 +83,7 @@ class TabulatedCurve final : public Centerline {
   void append(const TabulatedPoint& left, const TabulatedPoint& right);
   void append_flight(const TabulatedPoint& left, const TabulatedPoint& right);
 
+  std::vector<TabulatedPoint> rows_;
   std::vector<double> breaks_ = {0.0};
   std::vector<Stretch> stretches_;
   bool unbounded_ = false;
@@ -87,7 +91,7 @@ class TabulatedCurve final : public Centerline {
   double drop_ = 0.0;
 };
 
-/// @return a table of the curve so dense that TabulatedCurve gives it back to kTableAccuracy
+/// @return a table of the curve so dense that TabulatedCurve gives it back to kTableAccuracy; of a TabulatedCurve its own rows
 [[nodiscard]] std::vector<TabulatedPoint> table_of(const Centerline& curve);
 
 /// @param places  arc lengths on the curve, ascending, every break of it among them
