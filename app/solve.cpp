@@ -84,8 +84,10 @@ void add_solve(CLI::App& program, Action& action) {
   options->time_budget.add_to(command);
   command.add_option("--csv", options->csv, "Write the track and the ride by stations")->type_name("FILE");
   command
-      .add_option("--frozen", options->frozen,
-                  "Write the track found as a design in which nothing is searched for")
+      .add_option(
+          "--frozen", options->frozen,
+          "Write the track found as a design in which nothing is searched for; a track that needs a table "
+          "has it beside the design, as FILE.csv")
       ->type_name("FILE");
   add_json_flag(command, options->json, "the summary");
   options->verbosity.add_to(command, "Show no progress");

@@ -125,9 +125,17 @@ void require_values_of(const CLI::Option& option) {
   }
 }
 
+/// The directory of a sweep whose rows the command merges into one file; empty where it does something else.
+std::string merged_directory(const CLI::App& command) {
+  const CLI::Option* const merged = command.get_option_no_throw("--merge");
+  return merged == nullptr || merged->results().empty() ? std::string() : merged->results().front();
+}
+
 /// Whether an option names a file that the command writes whole.
-bool writes_file(const CLI::Option& option) {
-  return !option.get_positional() && option.get_type_name() == "FILE";
+bool writes_file(const CLI::App& command, const CLI::Option& option) {
+  if (option.get_positional()) return false;
+  return option.get_type_name() == "FILE" ||
+         (name_of(option) == "--output" && !merged_directory(command).empty());
 }
 
 std::vector<Override> overrides_of(const CLI::App& command) {
@@ -141,10 +149,40 @@ std::vector<Override> overrides_of(const CLI::App& command) {
   return overrides;
 }
 
+/// All files that an option has the command write whole.
+std::vector<std::string> written_by(const CLI::Option& option) {
+  std::vector<std::string> files = option.results();
+  if (name_of(option) != "--frozen") return files;
+  for (const std::string& design : option.results())
+    files.push_back(
+        std::filesystem::path(design).replace_extension(".csv").string());  // of a track that needs a table
+  return files;
+}
+
+/// Whether two names are of one file, whether it is there or not.
+bool is_one_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  const auto whole = [](const std::string& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  return whole(a) == whole(b) || std::filesystem::equivalent(a, b, ignored);
+}
+
+/// Whether a file is one of those that a sweep has left in its directory.
+bool is_of_sweep(const std::string& directory, const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::path sweep(directory);
+  return std::filesystem::equivalent(path, sweep / "manifest.json", ignored) ||
+         std::filesystem::equivalent(std::filesystem::absolute(path).parent_path(), sweep / "chunks",
+                                     ignored);
+}
+
 /// Whether what stands at `path` is a file that the command reads: an argument, or what a design names.
 bool is_read(const CLI::App& command, const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  const std::string merged = merged_directory(command);
+  if (!merged.empty() && is_of_sweep(merged, path)) return true;
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_positional()) continue;
     for (const std::string& argument : option->results()) {
@@ -211,14 +249,17 @@ void require_values(const CLI::App& program) {
 void keep_what_is_read(const CLI::App& program) {
   const std::vector<const CLI::Option*> options = given(program).get_options();
   for (auto one = options.begin(); one != options.end(); ++one) {
-    if (!writes_file(**one)) continue;
-    for (const std::string& path : (*one)->results()) {
+    if (!writes_file(given(program), **one)) continue;
+    for (const std::string& path : written_by(**one)) {
       if (is_read(given(program), path)) {
         throw InputError({name_of(**one), with_visible_characters(path) + " is read by this command, too",
                           "What it holds would be lost.", "another name"});
       }
       const auto same = [&](const CLI::Option* other) {
-        return writes_file(*other) && !other->results().empty() && other->results().front() == path;
+        if (!writes_file(given(program), *other)) return false;
+        const std::vector<std::string> files = written_by(*other);
+        return std::any_of(files.begin(), files.end(),
+                           [&](const std::string& file) { return is_one_file(file, path); });
       };
       const auto other = std::find_if(options.begin(), one, same);
       if (other == one) continue;

@@ -194,7 +194,46 @@ TEST_CASE("what a command reads is not written over, nor one result by another")
   const std::string result = (place / "result").string();
   CHECK_THAT(glissade_run({"solve", design, "--csv", result, "--frozen", result}).errors,
              Contains("--frozen: " + result + " is what --csv writes"));
+  // A frozen design's table stands beside it.
+  const std::string found = (place / "found.csv").string();
+  const std::string frozen = (place / "found.yaml").string();
+  const std::vector<std::string> run = {"solve", "--run", "3", "--drop", "2", "--friction-angle", "17deg"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), run.begin(), run.end());
+    return glissade_run(more);
+  };
+  CHECK_THAT(with({"--csv", found, "--frozen", frozen}).errors,
+             Contains("--frozen: " + found + " is what --csv writes"));
+  CHECK_FALSE(std::filesystem::exists(found));
+  std::ofstream(found) << "precious\n";
+  const Outcome refused = with({"--frozen", frozen});
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.errors, Contains(found + ": it is there, and no table of a frozen track"));
+  CHECK(bytes_of(found) == "precious\n");
+  CHECK_FALSE(std::filesystem::exists(frozen));
+  std::filesystem::remove(found);
+  CHECK(with({"--frozen", frozen}).exit_code == 0);
   // A result may replace an older one.
+  CHECK(with({"--frozen", frozen}).exit_code == 0);
   CHECK(glissade_run({"solve", design, "--csv", result}).exit_code == 0);
   CHECK(glissade_run({"solve", design, "--csv", result}).exit_code == 0);
+}
+
+TEST_CASE("what a sweep has left is not written over by its own table") {
+  const TempDir place;
+  const std::string design = (place / "d.yaml").string();
+  std::ofstream(design) << "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 3 m, z: 0 m}}\n"
+                           "body: {friction_angle: 17 deg}\n";
+  const std::string sweep = (place / "sw").string();
+  REQUIRE(
+      glissade_run({"sweep", design, "--vary", "body.friction_angle=10deg:20deg:5", "-o", sweep}).exit_code ==
+      0);
+  for (const std::string& file : {sweep + "/manifest.json", sweep + "/chunks/000000.csv"}) {
+    const std::string before = bytes_of(file);
+    const Outcome outcome = glissade_run({"sweep", "--merge", sweep, "-o", file});
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, Contains("--output: " + file + " is read by this command, too"));
+    CHECK(bytes_of(file) == before);
+  }
+  CHECK(glissade_run({"sweep", "--merge", sweep, "-o", sweep + "/table.csv"}).exit_code == 0);
 }

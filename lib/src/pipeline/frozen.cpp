@@ -10,6 +10,7 @@
 #include "glissade/io/atomic_file.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
@@ -66,9 +67,22 @@ CenterlineDesign as_table(const std::filesystem::path& csv) {
   return centerline;
 }
 
+constexpr const char* kTableHead = "run_m,height_m,slope_angle_deg,curvature_per_m";
+
+/// A file of the user's own under the name of a table is not lost.
+/// @throws InputError where one is there that is no table of a frozen track
+void require_no_other(const std::filesystem::path& csv) {
+  std::ifstream there(csv);
+  std::string head;
+  if (!there || !std::getline(there, head) || head == kTableHead) return;
+  throw InputError({csv.string(), "it is there, and no table of a frozen track",
+                    "The table of the track would take its place, beside the design under its name.",
+                    "another name for the design, or the file moved away"});
+}
+
 /// Heights count from the start: what a site adds to them would cost digits.
 std::string table_text(const std::vector<TabulatedPoint>& rows) {
-  std::string text = "run_m,height_m,slope_angle_deg,curvature_per_m\n";
+  std::string text = std::string(kTableHead) + "\n";
   for (const TabulatedPoint& row : rows) {
     text += exact_text(row.x) + "," + exact_text(row.drop == 0.0 ? 0.0 : -row.drop) + "," +
             exact_text(Angle::from_radians(row.slope_angle).degrees()) + "," + exact_text(row.curvature) +
@@ -113,6 +127,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
   } else if (const ClothoidSpline* const clothoids = clothoids_of(*track.centerline)) {
     frozen.centerline = as_segments(*clothoids);
   } else {
+    require_no_other(csv);
     write(csv, table_text(faithful_table(track)));
     frozen.centerline = as_table(csv);
   }

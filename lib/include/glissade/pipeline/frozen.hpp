@@ -16,7 +16,8 @@ namespace glissade {
 /// Accuracy: solve() of the new design gives travel time, speeds and places as they were to kTableAccuracy, or to
 ///   rounding where the track becomes segments.
 /// @param file  to write, with an ending other than .csv
-/// @throws InputError if its ending is .csv; FileError as AtomicFile
+/// @throws InputError if its ending is .csv, or if a file that is no table of a frozen track stands where its own is to go; FileError
+///   as AtomicFile
 void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track);
 
 }  // namespace glissade
