@@ -7,11 +7,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <cstddef>
 #include <regex>
 #include <set>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -52,11 +55,39 @@ fs::path without_trailing_slash(const fs::path& path) {
 int locked(const fs::path& directory) {
   const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    const int reason = errno;
     ::close(descriptor);
+    errno = reason;
     return -1;
   }
   return descriptor;
 }
+
+/// One build at a time changes the files of a directory: between another's list and its files those of that other would count
+/// as somebody's own.
+class Turn {
+ public:
+  explicit Turn(const fs::path& directory) {
+    using namespace std::chrono_literals;
+    constexpr int kMostTries =
+        1000;  // budget: ten seconds; nobody waits for good for a process that is halted
+    std::error_code error;
+    const fs::path place = fs::canonical(directory, error);
+    for (int i = 0; i < kMostTries && !error; ++i) {
+      descriptor_ = locked(place);
+      if (descriptor_ >= 0 || errno != EWOULDBLOCK) return;
+      std::this_thread::sleep_for(10ms);
+    }
+  }
+  ~Turn() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
 
 /// Removes what killed processes left: directories of the name that Staging gives, and of no other, that nobody
 /// has locked.
@@ -258,6 +289,7 @@ void Staging::require_of_no_other(const std::vector<std::string>& in_the_way) co
 }
 
 Published Staging::publish() {
+  const Turn turn(target_);
   const auto hold = Unfinished::hold();
   const fs::path made = directory_ / "new";
   const fs::path attic = directory_ / "old";
