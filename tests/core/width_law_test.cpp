@@ -28,6 +28,8 @@ TEST_CASE("width law: a number is a constant law, whatever place it was said at"
   CHECK(law.is_constant());
   CHECK(law.at(7.0) == 0.4);
   CHECK(law == WidthLaw(std::vector<WidthAt>{{3.0, 0.4}}));
+  CHECK(WidthLaw(std::vector<WidthAt>{{3.0, 0.4}}).last_place() == 3.0);
+  CHECK(WidthLaw(std::vector<WidthAt>{{1.0, 0.4}, {3.0, 0.4}}).last_place() == 3.0);
 }
 
 TEST_CASE("width law: places ascend, and there is one at least") {

@@ -142,6 +142,21 @@ TEST_CASE(
   CHECK(found[1].what == "friction changes at 6 m, but the track ends after 5 m");
 }
 
+TEST_CASE("the only width that is given, beyond the end of the track, is told as well") {
+  const Design design = parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 2 m, z: 5 m}, finish: {x: 6 m, z: 2 m}}\n"
+      "body: {friction_angle: 10 deg}\n"
+      "centerline: {kind: straight}\n"
+      "cross_section: {kind: u-channel, width: [{at: 50 m, width: 600 mm}], wall_height: 200 mm, "
+      "thickness: 3 mm}\n",
+      "d.yaml");
+  const std::vector<Issue> found = warnings(design, solve(design));
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].what == "the only width is given at 50 m, but the track ends after 5 m");
+  CHECK_THAT(found[0].where, Contains("d.yaml:5:"));
+}
+
 TEST_CASE("a probe behind where a ride ends: its place is told, and no state of the body there") {
   // 4 m at 30 deg, then level: at 17 deg the body stalls on the level, at 5 deg it arrives.
   const Design design = parse_design(

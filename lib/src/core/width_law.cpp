@@ -30,6 +30,7 @@ bool is_narrower(const WidthAt& a, const WidthAt& b) {
 }  // namespace
 
 WidthLaw::WidthLaw(std::vector<WidthAt> knots) : knots_(std::move(knots)) {
+  if (!knots_.empty()) last_place_ = knots_.back().at;
   if (knots_.size() == 1) knots_.front().at = 0.0;  // one width everywhere, wherever it was said
   if (knots_.empty()) throw InputError({"", "width: no place is given", "A floor has a width.", ""});
   for (std::size_t i = 1; i < knots_.size(); ++i) {

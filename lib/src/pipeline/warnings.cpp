@@ -46,6 +46,9 @@ void add_places_beyond(const Design& design, const Track& track, std::vector<Iss
     const std::optional<WidthLaw> law = section::width_law(*design.cross_section);
     for (const WidthAt& knot : law ? law->knots() : std::vector<WidthAt>{})
       tell("cross_section.width", knot.at, "a width is given");
+    // One width holds everywhere, wherever it was said.
+    if (law && law->knots().size() == 1)
+      tell("cross_section.width", law->last_place(), "the only width is given");
   }
   for (const FrictionFrom& change : design.body.friction_changes)
     tell("body.friction", change.from, "friction changes");

@@ -31,12 +31,15 @@ class WidthLaw {
   [[nodiscard]] double slope(double s) const;
   [[nodiscard]] double narrowest() const;
   [[nodiscard]] double widest() const;
+  /// @return the farthest place that was given; of one width everywhere, where it was said [m]
+  [[nodiscard]] double last_place() const { return last_place_; }
   [[nodiscard]] bool is_constant() const { return narrowest() == widest(); }
 
-  friend bool operator==(const WidthLaw&, const WidthLaw&) = default;
+  friend bool operator==(const WidthLaw& a, const WidthLaw& b) { return a.knots_ == b.knots_; }
 
  private:
   std::vector<WidthAt> knots_;
+  double last_place_ = 0.0;
 };
 
 }  // namespace glissade
