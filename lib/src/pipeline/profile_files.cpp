@@ -19,11 +19,15 @@ std::vector<std::filesystem::path> write_profile(const std::filesystem::path& di
   const std::string stem = design.file.empty() ? std::string("design") : design.file.stem().string();
   // An owner of its own: a build into the same directory has other files.
   Staging staging(directory, stem + ".section", design.file);
-  write_dxf(staging.path_for(stem + ".section.dxf"), drawing);
-  write_pdf(staging.path_for(stem + ".section.pdf"), sheets, design.name.empty() ? stem : design.name);
-  write_coordinates_csv(staging.path_for(stem + ".coordinates.csv"), stations, options);
-  if (const std::optional<Drawing> section = cross_section_drawing(design))
-    write_dxf(staging.path_for(stem + ".cross-section.dxf"), *section);
+  using Path = std::filesystem::path;
+  staging.make(stem + ".section.dxf", [&](const Path& file) { write_dxf(file, drawing); });
+  const std::string title = design.name.empty() ? stem : design.name;
+  staging.make(stem + ".section.pdf", [&](const Path& file) { write_pdf(file, sheets, title); });
+  staging.make(stem + ".coordinates.csv",
+               [&](const Path& file) { write_coordinates_csv(file, stations, options); });
+  if (const std::optional<Drawing> section = cross_section_drawing(design)) {
+    staging.make(stem + ".cross-section.dxf", [&](const Path& file) { write_dxf(file, *section); });
+  }
   return staging.publish().files;
 }
 

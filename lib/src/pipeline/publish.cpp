@@ -48,20 +48,6 @@ void write_report(const fs::path& path, const Design& design, const BuildForRepo
   file.commit();
 }
 
-/// Writes a file that gets its own name later; in what goes wrong it has that name already.
-template <typename Write>
-void named_as(const fs::path& staged, const fs::path& file, Write&& write) {
-  try {
-    std::forward<Write>(write)();
-  } catch (const FileError& error) {
-    std::vector<Issue> issues = error.issues();
-    for (Issue& issue : issues) {
-      if (issue.where == staged.string()) issue.where = file.string();
-    }
-    throw FileError(std::move(issues));
-  }
-}
-
 }  // namespace
 
 Build publish(const Design& given, Assembly assembly, const fs::path& directory, const RunContext& context,

@@ -295,9 +295,8 @@ Published Staging::publish() {
   const fs::path attic = directory_ / "old";
   (void)make_directories(attic);
   const std::string list = OwnedFiles::list_name(owner_);
-  AtomicFile list_file(made / list);
-  list_file.write(OwnedFiles::list_of(made, names_, design_));
-  list_file.commit();
+  named_as(made / list, target_ / list,
+           [&] { write_atomically(made / list, OwnedFiles::list_of(made, names_, design_)); });
 
   const OwnedFiles owned = OwnedFiles::in(target_, owner_);
   const std::set<std::string> wanted(names_.begin(), names_.end());

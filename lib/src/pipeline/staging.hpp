@@ -1,11 +1,13 @@
 #pragma once
 
+#include "glissade/core/error.hpp"
 #include "glissade/io/unfinished.hpp"
 
 #include <filesystem>
 #include <list>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace glissade::pipeline {
@@ -22,6 +24,20 @@ struct Published {
 ///         designs of one name in different directories do not replace each other's files unasked
 void require_same_design(const std::filesystem::path& target, const std::string& owner,
                          const std::filesystem::path& design);
+
+/// Writes a file that gets its own name later; in what goes wrong it has that name already.
+template <typename Write>
+void named_as(const std::filesystem::path& staged, const std::filesystem::path& file, Write&& write) {
+  try {
+    std::forward<Write>(write)();
+  } catch (const FileError& error) {
+    std::vector<Issue> issues = error.issues();
+    for (Issue& issue : issues) {
+      if (issue.where == staged.string()) issue.where = file.string();
+    }
+    throw FileError(std::move(issues));
+  }
+}
 
 /// A directory inside the target directory in which the files of one owner are made and checked before all of
 /// them move to their places together. What has not been published is gone when this is destroyed, the target
@@ -43,6 +59,14 @@ class Staging {
   /// @param name  of a file, relative to the target; folders in it are made
   /// @return where to make the file that will be called `name`
   [[nodiscard]] std::filesystem::path path_for(const std::string& name);
+
+  /// Makes the file that will be called `name`; what goes wrong says so of that name.
+  /// @param write  gets where to make it
+  template <typename Write>
+  void make(const std::string& name, Write&& write) {
+    const std::filesystem::path staged = path_for(name);
+    named_as(staged, target_ / name, [&] { write(staged); });
+  }
 
   /// Moves every file to its place. An earlier file of the same owner is replaced, and removed where the new set
   /// lacks it; any other file that stands in the way keeps its bytes under a new name, NAME.kept. Should one move

@@ -87,7 +87,14 @@ std::string differences(const std::string& there, const std::string& here) {
 bool create_exclusively(const fs::path& target, const std::string& text) {
   const fs::path written =
       target.parent_path() / (".manifest-" + std::to_string(std::random_device{}()) + ".part");
-  write_atomically(written, text);
+  try {
+    write_atomically(written, text);
+  } catch (const FileError& error) {
+    // Nobody asked for a file of that name.
+    std::vector<Issue> issues = error.issues();
+    for (Issue& issue : issues) issue.where = target.string();
+    throw FileError(std::move(issues));
+  }
   std::error_code error;
   fs::create_hard_link(written, target, error);
   std::error_code ignored;

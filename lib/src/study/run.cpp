@@ -1,5 +1,6 @@
 #include "glissade/core/error.hpp"
 #include "glissade/io/atomic_file.hpp"
+#include "glissade/io/made_directories.hpp"
 #include "glissade/study/study.hpp"
 
 #include "study/evaluation.hpp"
@@ -21,15 +22,6 @@ namespace glissade::study {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_directory(const fs::path& directory) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (!error && fs::is_directory(directory)) return;
-  throw FileError({directory.string(),
-                   "cannot be made: " + (error ? error.message() : "there is a file of this name"), "",
-                   "another directory with -o"});
-}
 
 /// The rows of one chunk, computed on every thread of the arena.
 std::string chunk_text(const Evaluation& evaluation, const Plan& plan, std::uint64_t chunk,
@@ -112,9 +104,11 @@ RunReport run(const Study& study, const RunOptions& options) {
   check(study);
   const Evaluation evaluation(study, options.stop);
   const std::string manifest = manifest_text(study, evaluation.columns());
-  make_directory(options.directory);
-  make_directory(options.directory / "chunks");
+  MadeDirectories made;  // gone where not even the manifest can be written
+  made.make(options.directory);
+  made.make(options.directory / "chunks");
   place_manifest(options.directory, manifest);
+  made.keep();  // other processes write into them, too
 
   RunReport report;
   report.points = study.plan.count();
