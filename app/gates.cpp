@@ -11,6 +11,7 @@
 #include "app/summary.hpp"
 #include "app/table.hpp"
 #include "app/track_input.hpp"
+#include "app/usage_problem.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -150,7 +151,12 @@ void require_arrivals(const Design& design, const GateTable& table) {
   }
 }
 
-ExitCode show_gates(const GatesArguments& options) {
+ExitCode show_gates(const CLI::App& command, const GatesArguments& options) {
+  if (options.json) {
+    refuse_ignored(command, {"--speed", "--head-wind-change", "--slopes"}, "beside --json",
+                   "The object holds every gate with its speeds and their derivatives, and no answers.",
+                   "one of the two");
+  }
   const Design design = options.design.read();
   if (!design.gates) {
     throw InputError({design.where("centerline"), "the design has no gates", "",
@@ -190,7 +196,9 @@ void add_gates(CLI::App& program, Action& action) {
   command.add_flag("--slopes", options->slopes,
                    "Tell how the speed answers to friction, drag and length of in-run instead");
   add_json_flag(command, options->json, "the table");
-  command.callback([options, &action] { action = [options] { return show_gates(*options); }; });
+  command.callback([options, &action, &command] {
+    action = [options, &command] { return show_gates(command, *options); };
+  });
 }
 
 }  // namespace glissade::app

@@ -7,6 +7,7 @@
 #include "app/console.hpp"
 #include "app/new_file.hpp"
 #include "app/option_value.hpp"
+#include "app/usage_problem.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -69,7 +70,11 @@ std::string template_of(const std::string& kind, const InitArguments& options) {
   return in_run_template(option_value(options.hill_size, Dimension::length, "--hill-size"));
 }
 
-ExitCode write_template(const InitArguments& options) {
+ExitCode write_template(const CLI::App& command, const InitArguments& options) {
+  if (options.output.empty()) {
+    refuse_ignored(command, {"--force"}, "without -o", "The design goes to standard output.",
+                   "-o chute.yaml --force");
+  }
   const std::string kind = options.kind.empty() ? std::string(design_templates().front().kind) : options.kind;
   const std::string text = template_of(kind, options);
   const bool needs_profile = kind == "points";
@@ -105,7 +110,9 @@ void add_init(CLI::App& program, Action& action) {
                   "Of in-run: HS in metres, whose sizes it takes [default: 140]")
       ->type_name("LENGTH");
   command.add_flag("--force", options->force, "Replace a file that exists");
-  command.callback([options, &action] { action = [options] { return write_template(*options); }; });
+  command.callback([options, &action, &command] {
+    action = [options, &command] { return write_template(command, *options); };
+  });
 }
 
 }  // namespace glissade::app

@@ -19,6 +19,7 @@
 #include "app/table.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
+#include "app/usage_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -173,7 +174,11 @@ void write_design(const RedesignArguments& options, const Design& design, const 
   target.commit();
 }
 
-ExitCode show_redesign(const RedesignArguments& options) {
+ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options) {
+  if (options.output.empty()) {
+    refuse_ignored(command, {"--letters"}, "without -o", "It chooses which of the two designs is written.",
+                   "--letters -o letters.yaml");
+  }
   const RedesignOptions asked = wanted(options);
   const Design design = options.design.read();
   const Redesign found = [&] {
@@ -223,7 +228,9 @@ void add_redesign(CLI::App& program, Action& action) {
   add_json_flag(command, options->json, "the table");
   options->time_budget.add_to(command);
   options->verbosity.add_to(command, "Show no progress");
-  command.callback([options, &action] { action = [options] { return show_redesign(*options); }; });
+  command.callback([options, &action, &command] {
+    action = [options, &command] { return show_redesign(command, *options); };
+  });
 }
 
 }  // namespace glissade::app

@@ -5,6 +5,7 @@
 #include "app/console.hpp"
 #include "app/new_file.hpp"
 #include "app/track_input.hpp"
+#include "app/usage_problem.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -33,7 +34,11 @@ struct RewriteArguments {
   bool force = false;
 };
 
-ExitCode rewrite(const RewriteArguments& options) {
+ExitCode rewrite(const CLI::App& command, const RewriteArguments& options) {
+  if (options.output.empty()) {
+    refuse_ignored(command, {"--force"}, "without -o", "The design goes to standard output.",
+                   "-o chute.yaml --force");
+  }
   Design design = options.input.design();
   if (options.output.empty()) {
     print(design_text(design));
@@ -60,7 +65,8 @@ void add_rewrite(CLI::App& program, Action& action) {
       ->type_name("FILE")
       ->group("Options");
   command.add_flag("--force", options->force, "Replace a file that exists")->group("Options");
-  command.callback([options, &action] { action = [options] { return rewrite(*options); }; });
+  command.callback(
+      [options, &action, &command] { action = [options, &command] { return rewrite(command, *options); }; });
 }
 
 }  // namespace glissade::app

@@ -13,6 +13,7 @@
 #include "app/rules_text.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
+#include "app/usage_problem.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -138,13 +139,20 @@ ExitCode judge_design(const RulesArguments& options) {
   return verdicts.fail() ? ExitCode::faulty : ExitCode::done;
 }
 
-ExitCode run_rules(const RulesArguments& options) {
-  if (options.quantities) {
-    print(quantities_table());
-    return ExitCode::done;
-  }
-  const bool is_design = options.what.ends_with(".yaml") || options.what.ends_with(".yml");
-  return is_design ? judge_design(options) : list_rules(options);
+ExitCode list_quantities(const CLI::App& command, const RulesArguments& options) {
+  refuse_ignored(command, {"what", "--set", "--csv", "--time-budget"}, "beside --quantities",
+                 "What rules may bound is the same for every design and every set.", "--quantities alone");
+  print(options.json ? rule_quantities_json() : quantities_table());
+  return ExitCode::done;
+}
+
+ExitCode run_rules(const CLI::App& command, const RulesArguments& options) {
+  if (options.quantities) return list_quantities(command, options);
+  if (options.what.ends_with(".yaml") || options.what.ends_with(".yml")) return judge_design(options);
+  refuse_ignored(command, {"--set", "--csv", "--time-budget"}, "without a design",
+                 "Rules that are listed are held against nothing, and give no verdicts.",
+                 "the design that is meant, DESIGN.yaml");
+  return list_rules(options);
 }
 
 }  // namespace
@@ -163,7 +171,9 @@ void add_rules(CLI::App& program, Action& action) {
   command.add_flag("--quantities", options->quantities, "List what rules may bound, with the unit");
   command.add_flag("--json", options->json, "Print one JSON object with SI values instead");
   options->verbosity.add_to(command, "Show no progress");
-  command.callback([options, &action] { action = [options] { return run_rules(*options); }; });
+  command.callback([options, &action, &command] {
+    action = [options, &command] { return run_rules(command, *options); };
+  });
 }
 
 }  // namespace glissade::app

@@ -1,4 +1,5 @@
 #include "glissade/io/atomic_file.hpp"
+#include "glissade/io/made_directories.hpp"
 #include "glissade/study/study.hpp"
 #include "glissade/study/summary.hpp"
 
@@ -9,10 +10,13 @@
 #include "app/sweep_text.hpp"
 #include "app/table.hpp"
 #include "app/track_input.hpp"
+#include "app/usage_problem.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -51,15 +55,19 @@ struct SweepArguments {
   std::vector<std::string> vary;
   std::string points;
   std::vector<std::string> scatter;
+  std::string samples_text;
   std::uint64_t samples = 0;
   std::string sampling = "sobol";
+  std::string seed_text;
   std::uint64_t seed = 1;
   bool frozen = false;
   std::vector<std::string> columns;
   std::string output;
+  std::string jobs_text;
   unsigned jobs = 0;
   std::string shard;
   bool slurm = false;
+  std::string tasks_text;
   std::uint64_t tasks = 0;
   std::string merge;
   Verbosity verbosity;
@@ -67,6 +75,21 @@ struct SweepArguments {
 
 void require(bool holds, Issue issue) {
   if (!holds) throw InputError(std::move(issue));
+}
+
+/// One more than any machine has processors, and no shell that lost a digit.
+constexpr unsigned kMostJobs = 65'536;  // taste
+
+/// A whole number that an option names, kept as text until here: the parser would take -1 for the largest one there is.
+std::uint64_t count_of(const std::string& option, const std::string& text, std::uint64_t least,
+                       std::uint64_t most, const std::string& why, const std::string& hint) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  const bool whole = error == std::errc() && rest == end;
+  if (whole && value >= least && value <= most) return value;
+  throw InputError(
+      {option, "'" + text + "' is " + (whole ? "out of range" : "no whole number of 0 or more"), why, hint});
 }
 
 study::Plan plan_of(const SweepArguments& options) {
@@ -154,7 +177,8 @@ ExitCode write_batch(const SweepArguments& options, const study::Study& study, c
   const std::uint64_t chunks = study::chunks_of(study.plan.count());
   const std::uint64_t tasks = options.tasks != 0 ? options.tasks : std::min(kUsualTasks, chunks);
   study::check(study);
-  fs::create_directories(directory);
+  MadeDirectories made;  // gone where the file cannot be written
+  made.make(directory);
   const fs::path file = directory / "sweep.sbatch";
   write_whole(file, batch_text(sweep_arguments(options, directory), directory.string(), tasks));
   if (!options.verbosity.quiet()) {
@@ -176,7 +200,57 @@ void show_summary(const SweepArguments& options, const fs::path& directory, cons
   if (!options.verbosity.quiet()) print(summary_text(summary) + "\n" + labelled("Page", page.string()));
 }
 
-ExitCode sweep_design(const SweepArguments& options) {
+/// Options that are of no use together, or alone.
+void refuse_unused(const CLI::App& command, const SweepArguments& options) {
+  if (!options.merge.empty()) {
+    refuse_ignored(command,
+                   {"--set", "--vary", "--points", "--scatter", "--samples", "--sampling", "--seed",
+                    "--frozen", "--columns", "--jobs", "--shard", "--slurm", "--tasks"},
+                   "beside --merge",
+                   "The directory knows what was studied; its rows are written as they are.",
+                   "glissade sweep --merge sweep -o sweep.csv");
+    return;
+  }
+  if (options.slurm) {
+    refuse_ignored(command, {"--jobs", "--shard"}, "beside --slurm",
+                   "Nothing is computed now; each task of the array gets a shard.", "--tasks 16");
+  } else {
+    refuse_ignored(command, {"--tasks"}, "without --slurm", "They are those of Slurm's array.",
+                   "--slurm, or --jobs for threads");
+  }
+  if (options.scatter.empty()) {
+    refuse_ignored(command, {"--sampling", "--seed"}, "without --scatter", "Only what scatters is drawn.",
+                   "--scatter \"body.friction_angle=normal(17deg,1.5deg)\" --samples 1000");
+  }
+}
+
+SweepArguments counted(SweepArguments options) {
+  constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+  if (!options.jobs_text.empty()) {
+    options.jobs = static_cast<unsigned>(
+        count_of("--jobs", options.jobs_text, 0, kMostJobs,
+                 "It lies between 0 and 65536 threads; 0 is one a processor.", "--jobs 4"));
+  }
+  if (!options.seed_text.empty()) {
+    options.seed =
+        count_of("--seed", options.seed_text, 0, kAll,
+                 "It lies between 0 and 18446744073709551615, and stands for its samples.", "--seed 2");
+  }
+  if (!options.samples_text.empty()) {
+    options.samples = count_of("--samples", options.samples_text, 1, study::Plan::kMostPoints,
+                               "It lies between 1 and 1000000000.", "--samples 1000");
+  }
+  if (!options.tasks_text.empty()) {
+    options.tasks =
+        count_of("--tasks", options.tasks_text, 1, study::Plan::kMostPoints,
+                 "An array has a task at least, and no more than there are points.", "--tasks 16");
+  }
+  return options;
+}
+
+ExitCode sweep_design(const CLI::App& command, const SweepArguments& given) {
+  refuse_unused(command, given);
+  const SweepArguments options = counted(given);
   if (!options.merge.empty()) return merge_chunks(options);
   require(!options.design.empty(), {"", "a design file is missing", "", "glissade sweep --help"});
   const study::Study study = study_of(options);
@@ -216,13 +290,13 @@ void add_sweep(CLI::App& program, Action& action) {
   several("--scatter", options->scatter, "KEY=LAW",
           "uniform(LOW,HIGH), normal(MEAN,DEVIATION), truncated-normal(MEAN,DEVIATION,LOW,HIGH), "
           "lognormal(MEDIAN,SIGMA) or triangular(LOW,MODE,HIGH); may be repeated");
-  command.add_option("--samples", options->samples, "How many values are drawn for --scatter")
+  command.add_option("--samples", options->samples_text, "How many values are drawn for --scatter")
       ->type_name("NUMBER");
   command
       .add_option("--sampling", options->sampling,
                   "sobol, latin-hypercube or random [default: sobol, the evenest; best with a power of 2]")
       ->type_name("WAY");
-  command.add_option("--seed", options->seed, "Another seed draws other samples [default: 1]")
+  command.add_option("--seed", options->seed_text, "Another seed draws other samples [default: 1]")
       ->type_name("NUMBER");
   command.add_flag("--frozen", options->frozen, "Find the track of the design once; every point rides it");
   command
@@ -236,19 +310,23 @@ void add_sweep(CLI::App& program, Action& action) {
           "Directory for the rows, made if missing [default: out/NAME-OF-THE-DESIGN_sweep]; with --merge "
           "the table to write")
       ->type_name("PATH");
-  command.add_option("--jobs", options->jobs, "Threads [default: one a processor]")->type_name("NUMBER");
+  command.add_option("--jobs", options->jobs_text, "Threads; 0: one a processor [default: 0]")
+      ->type_name("NUMBER");
   command
       .add_option("--shard", options->shard, "Compute only part i of n, counted from 0; for engines outside")
       ->type_name("i/n");
   command.add_flag("--slurm", options->slurm,
                    "Compute nothing; write a batch file for Slurm, an array of shards");
   command
-      .add_option("--tasks", options->tasks, "Of --slurm: tasks of the array [default: 16, or one a chunk]")
+      .add_option("--tasks", options->tasks_text,
+                  "Of --slurm: tasks of the array [default: 16, or one a chunk]")
       ->type_name("NUMBER");
   command.add_option("--merge", options->merge, "Write all rows of a directory as one table instead")
       ->type_name("DIR");
   options->verbosity.add_to(command, "Print nothing but errors");
-  command.callback([options, &action] { action = [options] { return sweep_design(*options); }; });
+  command.callback([options, &action, &command] {
+    action = [options, &command] { return sweep_design(command, *options); };
+  });
 }
 
 }  // namespace glissade::app

@@ -102,6 +102,24 @@ const CLI::Option* option_that_begins(const CLI::App& command, const std::string
   return nullptr;
 }
 
+/// Of "Could not convert: --json = x": which option, and what it takes.
+std::optional<Issue> not_taken(const CLI::App& command, const std::string& text, const std::string& help) {
+  constexpr std::string_view kBegins = "Could not convert: ";
+  if (!text.starts_with(kBegins)) return {};
+  const std::string rest = text.substr(kBegins.size());
+  const std::size_t sign = std::min(rest.find(" = "), rest.size());
+  const std::string name = rest.substr(0, sign);
+  const std::string value = sign < rest.size() ? rest.substr(sign + std::string_view(" = ").size()) : "";
+  const CLI::Option* const option = command.get_option_no_throw(name);
+  const std::string type = option == nullptr ? "" : option->get_type_name();
+  const bool is_flag = option != nullptr && option->get_expected_min() == 0;
+  return Issue{name, "it cannot take " + shown(value),
+               is_flag        ? "It takes no value."
+               : type.empty() ? ""
+                              : "It takes " + type + ".",
+               is_flag ? name + " alone" : help};
+}
+
 void require_values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const bool names_file = type == "FILE" || type == "DIR" || type == "MESH" || type.starts_with("DESIGN");
@@ -231,6 +249,7 @@ Issue usage_issue(const CLI::App& program, const std::string& parser_text) {
   }
   std::string what = parser_text;
   while (!what.empty() && (what.back() == '\n' || what.back() == ' ')) what.pop_back();
+  if (const auto issue = not_taken(given(program), what, help)) return *issue;
   if (const CLI::Option* const named = option_that_begins(given(program), what)) {
     const std::string name = name_of(*named);
     const std::string type = named->get_type_name();
@@ -244,6 +263,15 @@ Issue usage_issue(const CLI::App& program, const std::string& parser_text) {
 
 void require_values(const CLI::App& program) {
   for (const CLI::Option* option : given(program).get_options()) require_values_of(*option);
+}
+
+void refuse_ignored(const CLI::App& command, const std::vector<std::string>& options,
+                    const std::string& beside, const std::string& why, const std::string& hint) {
+  for (const std::string& name : options) {
+    const CLI::Option& option = *command.get_option(name);
+    if (option.count() == 0) continue;
+    throw InputError({name_of(option), "it changes nothing " + beside, why, hint});
+  }
 }
 
 void keep_what_is_read(const CLI::App& program) {

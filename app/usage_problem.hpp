@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -22,6 +23,12 @@ namespace glissade::app {
 /// Looks at values that the parser took but that name nothing: an empty one, or "-" for a file.
 /// @throws InputError with the option
 void require_values(const CLI::App& program);
+
+/// Refuses options that were given and would change nothing.
+/// @param beside  with what, or without what, they mean nothing: "beside --quantities", "without -o"
+/// @throws InputError with the first of them
+void refuse_ignored(const CLI::App& command, const std::vector<std::string>& options,
+                    const std::string& beside, const std::string& why, const std::string& hint);
 
 /// Looks that no file is written over one that the command reads, its design's profiles among them, or over
 /// another that it writes.

@@ -138,6 +138,29 @@ TEST_CASE("sweep: a full disk is an error with exit code 5, and the sweep goes o
   CHECK(sweep(place, command).exit_code == 0);
 }
 
+TEST_CASE("sweep: where not even the manifest can be written it is named, and no directory stays") {
+  const TempDir place;
+  RunLimits limits;
+  limits.largest_file = 250;  // what is said of it fits
+  const std::vector<std::string> command = {shipped("grain_chute"), "--vary",
+                                            "body.friction_angle=10deg:20deg:3", "-o", "new/s"};
+  const Outcome full = sweep(place, command, limits);
+  CHECK(full.exit_code == 5);
+  CHECK_THAT(full.errors, Contains("new/s/manifest.json: cannot write") && !Contains(".part"));
+  CHECK(place.names().empty());
+  std::vector<std::string> batch = command;
+  batch.emplace_back("--slurm");
+  const Outcome slurm = sweep(place, batch, limits);
+  CHECK(slurm.exit_code == 5);
+  CHECK_THAT(slurm.errors, Contains("new/s/sweep.sbatch"));
+  CHECK(place.names().empty());
+  // One that was there before stays.
+  std::filesystem::create_directories(place / "new");
+  CHECK(sweep(place, command, limits).exit_code == 5);
+  CHECK(place.names() == std::vector<std::string>{"new"});
+  CHECK(std::filesystem::is_empty(place / "new"));
+}
+
 TEST_CASE("sweep: a directory that cannot be made is an error with exit code 5") {
   const TempDir place;
   put_bytes(place / "file", "");

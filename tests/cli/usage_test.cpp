@@ -4,6 +4,11 @@
 
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -236,4 +241,87 @@ TEST_CASE("what a sweep has left is not written over by its own table") {
     CHECK(bytes_of(file) == before);
   }
   CHECK(glissade_run({"sweep", "--merge", sweep, "-o", sweep + "/table.csv"}).exit_code == 0);
+}
+
+TEST_CASE("options that would change nothing are refused, with why") {
+  struct Pair {
+    std::vector<std::string> arguments;
+    std::string option;
+  };
+  const std::string design = shipped("grain_chute");
+  const std::string hill = shipped("hills/garmisch_hs142");
+  const std::vector<Pair> pairs = {
+      {{"rules", "--csv", "zz.csv"}, "--csv"},
+      {{"rules", "slide", "--set", "a=b"}, "--set"},
+      {{"rules", "slide", "--time-budget", "3s"}, "--time-budget"},
+      {{"rules", "slide", "--quantities"}, "WORD"},
+      {{"rules", "--quantities", "--csv", "zz.csv"}, "--csv"},
+      {{"gates", hill, "--json", "--speed", "25"}, "--speed"},
+      {{"gates", hill, "--json", "--slopes"}, "--slopes"},
+      {{"init", "chute", "--force"}, "--force"},
+      {{"rewrite", design, "--force"}, "--force"},
+      {{"redesign", hill, "--letters"}, "--letters"},
+      {{"sweep", "--merge", "s", "-o", "s.csv", "--frozen"}, "--frozen"},
+      {{"sweep", design, "--vary", "mesh.tolerance=1mm,2mm", "--tasks", "2"}, "--tasks"},
+      {{"sweep", design, "--vary", "mesh.tolerance=1mm,2mm", "--seed", "2"}, "--seed"},
+      {{"sweep", design, "--vary", "mesh.tolerance=1mm,2mm", "--slurm", "--jobs", "2"}, "--jobs"},
+  };
+  for (const Pair& pair : pairs) {
+    const TempDir place;
+    const Outcome outcome = glissade_run(pair.arguments, {place.path(), {}, {}});
+    CAPTURE(pair.arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, Contains(pair.option) && Contains("it changes nothing") && Contains("Try: "));
+    CHECK(place.names().empty());
+  }
+}
+
+TEST_CASE("numbers of sweep are whole, and within their bounds") {
+  const std::vector<std::string> scatter = {"sweep",     shipped("grain_chute"),
+                                            "--scatter", "body.friction_angle=uniform(16deg,18deg)",
+                                            "--samples", "4"};
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{
+           {"--seed", "-1"}, {"--jobs", "-1"}, {"--jobs", "65537"}, {"--jobs", "1.5"}, {"--seed", "x"}}) {
+    const TempDir place;
+    std::vector<std::string> arguments = scatter;
+    arguments.insert(arguments.end(), {option, value});
+    const Outcome outcome = glissade_run(arguments, {place.path(), {}, {}});
+    CAPTURE(option, value);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, StartsWith("glissade: error: " + option + ": '" + value + "' is ") &&
+                                   Contains("It lies between 0 and"));
+    CHECK(place.names().empty());
+  }
+}
+
+TEST_CASE("what rules may bound comes as JSON where that is asked for") {
+  const Outcome outcome = glissade_run({"rules", "--quantities", "--json"});
+  CHECK(outcome.exit_code == 0);
+  const nlohmann::json document = nlohmann::json::parse(outcome.output);
+  CHECK(document.at("quantities").size() > 20);
+  for (const auto& quantity : document.at("quantities")) {
+    CHECK(quantity.at("quantity").is_string());
+    CHECK((quantity.at("of") == "track" || quantity.at("of") == "fabrication"));
+    CHECK(quantity.contains("unit"));
+    CHECK(!quantity.at("meaning").get<std::string>().empty());
+  }
+}
+
+TEST_CASE("a value that an option cannot take is told as all errors are") {
+  const Outcome outcome = glissade_run({"build", "b.yaml", "--json=x"});
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.errors ==
+        "glissade: error: --json: it cannot take x\n      It takes no value.\n      Try: --json alone\n");
+}
+
+TEST_CASE("profile on a full disk names the file that was asked for, and leaves nothing behind") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  limits.largest_file = 2000;
+  const Outcome outcome = glissade_run({"profile", shipped("hills/garmisch_hs142"), "-d", "out"}, limits);
+  CHECK(outcome.exit_code == 5);
+  CHECK_THAT(outcome.errors,
+             Contains("out/garmisch_hs142.section.dxf: cannot write") && !Contains(".glissade-"));
+  CHECK(place.names().empty());
 }

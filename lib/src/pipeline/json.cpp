@@ -381,6 +381,17 @@ std::string rules_json(const std::vector<RuleSet>& sets) {
   return document_text({{"glissade", version()}, {"sets", std::move(list)}});
 }
 
+std::string rule_quantities_json() {
+  Json list = Json::array();
+  for (const RuleQuantity& quantity : rule_quantities()) {
+    list.push_back({{"quantity", quantity.key},
+                    {"unit", unit_for_people(quantity.dimension)},
+                    {"of", quantity.subject == RuleSubject::track ? "track" : "fabrication"},
+                    {"meaning", quantity.label}});
+  }
+  return document_text({{"glissade", version()}, {"quantities", std::move(list)}});
+}
+
 std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements,
                           const std::vector<ShopCheck>* shop) {
   Json json{{"glissade", version()}};

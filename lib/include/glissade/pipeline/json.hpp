@@ -38,6 +38,8 @@ struct ComparedTrack {
 [[nodiscard]] std::string comparison_json(const Design* common, const std::vector<ComparedTrack>& tracks);
 
 /// Rules as they are, without a track.
+/// @return what rules may bound, as `glissade rules --quantities --json` prints it
+[[nodiscard]] std::string rule_quantities_json();
 [[nodiscard]] std::string rules_json(const std::vector<RuleSet>& sets);
 
 /// What rules say of a track, and those of the shop of its parts.
