@@ -18,6 +18,7 @@ namespace energy_left_test {
 
 using namespace glissade;
 using optimizer::least_speed_left;
+using optimizer::most_speed_left;
 
 namespace {
 
@@ -92,6 +93,67 @@ TEST_CASE("without friction the speed at the finish is known; with it two slopes
   problem.limits.slope_angle.lowest = 9.0 * kDegree;
   problem.body.drag_per_metre = 0.01;
   CHECK(!least_speed_left(problem));
+}
+
+TEST_CASE("no ride is faster at its finish than the energy equation says, whatever its shape") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int arrived = 0;
+  int tight = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Problem problem;
+    const double flattest = random.between(-70.0, 20.0) * kDegree;
+    const double steepest = random.between(30.0, 89.0) * kDegree;
+    const auto track = wandering(random, flattest, steepest);
+    const CenterlinePoint end = track->at(track->length());
+    problem.endpoints = {end.x, end.drop};
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.5));
+    if (random.integer(0, 1) == 1) problem.body.entry_speed = random.between(0.5, 4.0);
+    if (random.integer(0, 2) == 0) problem.body.drag_per_metre = random.between(0.0, 0.05);
+    if (problem.body.drag_per_metre > 0.0) problem.body.head_wind = random.between(0.0, 5.0);
+    if (random.integer(0, 1) == 1) problem.limits.slope_angle = {flattest, steepest};
+    const Motion motion(track, problem.body, problem.gravity);
+    if (!motion.arrived()) continue;
+    ++arrived;
+    CAPTURE(i, flattest, steepest, problem.body.friction.coefficient());
+    const std::optional<double> most = most_speed_left(problem);
+    REQUIRE(most);
+    CHECK(motion.exit_speed() <= *most * (1.0 + 1e-9));
+    // Friction has its part in it.
+    const double entry = problem.body.entry_speed;
+    const double frictionless = std::sqrt(entry * entry + 2.0 * problem.gravity * end.drop);
+    CHECK(*most <= frictionless * (1.0 + 1e-12));
+    tight += *most < 0.99 * frictionless ? 1 : 0;
+  }
+  CAPTURE(arrived, tight);
+  CHECK(arrived > 150);
+  CHECK(tight > arrived / 10);
+}
+
+TEST_CASE("a straight line is as fast as the energy equation allows within its slope") {
+  Problem problem;
+  problem.endpoints = {8.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.25);
+  const double slope = std::atan2(5.0, 8.0);
+  problem.limits.slope_angle = {slope, slope};
+  const double along = std::sqrt(2.0 * problem.gravity * (5.0 - 0.25 * 8.0));
+  CHECK(most_speed_left(problem).value() == Approx(along).epsilon(1e-12));
+}
+
+TEST_CASE("where energy may be added, or the finish lie as deep as one likes, no highest speed is known") {
+  Problem problem;
+  problem.endpoints = {8.0, 5.0};
+  const double fallen = std::sqrt(2.0 * problem.gravity * 5.0);
+  CHECK(most_speed_left(problem).value() == Approx(fallen).epsilon(1e-14));
+  problem.body.drag_per_metre = 0.01;
+  problem.body.head_wind = -20.0;
+  CHECK(!most_speed_left(problem));
+  problem.body.head_wind = 20.0;
+  CHECK(most_speed_left(problem).value() == Approx(fallen).epsilon(1e-14));
+  problem.finish.kind = FinishKind::vertical_line;
+  CHECK(!most_speed_left(problem));
+  problem.finish.free_range.highest = 20.0;
+  CHECK(most_speed_left(problem).value() == Approx(2.0 * fallen).epsilon(1e-14));
 }
 
 }  // namespace energy_left_test

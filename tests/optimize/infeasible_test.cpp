@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 using namespace glissade;
@@ -152,4 +153,34 @@ TEST_CASE(
             Approx(mean).margin(1e-3));
     }
   }
+}
+
+TEST_CASE(
+    "a lowest speed beyond what the drop gives is a conflict by the energy equation, with what it takes") {
+  Problem problem;
+  problem.endpoints = {5.4, 5.1};
+  problem.body.friction = Friction::from_angle(Angle::from_degrees(17.0));
+  const auto proven = [&] {
+    const Optimum optimum = optimize(problem);
+    return optimum.report.status == OptimizeStatus::infeasible &&
+           optimum.report.conflict.limits.size() == 1 &&
+           optimum.report.conflict.why.find("the energy equation leaves at most 10 m/s") != std::string::npos;
+  };
+  problem.limits.exit_speed = {20.0, 20.0};
+  CHECK(proven());
+  problem.limits.exit_speed = {20.0, {}};
+  CHECK(proven());
+  problem.limits.exit_speed = {};
+  problem.limits.speed.lowest = 20.0;
+  problem.limits.lowest_speed_from = 1.0;
+  CHECK(proven());
+  // Where it may never begin to hold nothing is proven.
+  problem.limits.lowest_speed_from = 30.0;
+  CHECK(!proven());
+  // A wind from behind may add what is missing.
+  problem.limits.speed = {};
+  problem.limits.exit_speed = {20.0, {}};
+  problem.body.drag_per_metre = 0.05;
+  problem.body.head_wind = -60.0;
+  CHECK(!proven());
 }

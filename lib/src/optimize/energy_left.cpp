@@ -81,7 +81,64 @@ std::optional<double> left_at(const Problem& problem, double mu) {
   return std::sqrt(weighted * math::exp(2.0 * mu * exit.flattest));
 }
 
+/// Whether nothing but gravity can add to the energy of the body's one speed.
+bool only_loses(const Body& body) {
+  const bool point = !body.law || (body.law->inertia() == 1.0 && body.law->centre_height() == 0.0 &&
+                                   !body.law->depends_on_speed() && body.law->side() == 1.0);
+  const bool pushed = body.head_wind < 0.0 && body.drag_per_metre > 0.0;
+  return point && !pushed && !body.landing && !body.approach;
+}
+
+/// How far down the finish may lie; none where as far as one likes.
+std::optional<double> deepest(const Problem& problem) {
+  switch (problem.finish.kind) {
+    case FinishKind::point:
+    case FinishKind::level:
+      return problem.endpoints.drop;
+    case FinishKind::vertical_line:
+      return problem.finish.free_range.highest;
+    case FinishKind::anywhere:
+      return problem.finish.free_drop.highest;
+  }
+  return std::nullopt;
+}
+
+/// What friction leaves of the squared speed at a finish that is given; none where it says nothing.
+std::optional<double> most_square_left(const Problem& problem) {
+  const double run = std::fabs(problem.endpoints.run);
+  const double drop = problem.endpoints.drop;
+  // Limits hold at every friction of the range, so that its highest one tells; of one that changes, the least.
+  Friction friction = problem.high_friction.value_or(problem.body.friction);
+  for (const FrictionChange& change : problem.body.friction_changes)
+    friction = std::min(friction, change.friction);
+  const double mu = friction.coefficient();
+  Slopes entry;
+  entry.hold(problem.limits.slope_angle);
+  Slopes exit = entry;
+  entry.hold(problem.limits.entry_slope_angle);
+  exit.hold(problem.limits.exit_slope_angle);
+  const double entry2 = problem.body.entry_speed * problem.body.entry_speed;
+  const double grown =
+      2.0 * problem.gravity * (drop - mu * run) * math::exp(-2.0 * mu * math::atan2(drop, run));
+  const double weighted = entry2 * math::exp(-2.0 * mu * entry.flattest) + grown;
+  const double square = weighted * math::exp(2.0 * mu * exit.steepest);
+  // Below nothing is left: that no track arrives is told elsewhere.
+  if (!(square > 0.0) || !std::isfinite(square)) return std::nullopt;
+  return square;
+}
+
 }  // namespace
+
+std::optional<double> most_speed_left(const Problem& problem) {
+  const std::optional<double> drop = deepest(problem);
+  if (!drop || !only_loses(problem.body)) return std::nullopt;
+  const double entry2 = problem.body.entry_speed * problem.body.entry_speed;
+  double square = entry2 + 2.0 * problem.gravity * *drop;
+  if (!(square > 0.0)) return std::nullopt;
+  if (problem.finish.kind == FinishKind::point)
+    square = std::min(square, most_square_left(problem).value_or(square));
+  return std::sqrt(square);
+}
 
 std::optional<double> least_speed_left(const Problem& problem) {
   const Body& body = problem.body;

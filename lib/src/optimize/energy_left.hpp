@@ -16,4 +16,15 @@ namespace glissade::optimizer {
 ///         may be as steep as one likes uphill
 [[nodiscard]] std::optional<double> least_speed_left(const Problem& problem);
 
+/// No track brings the body to the finish faster than this [m/s], whatever its shape.
+///
+/// Source: nothing but gravity adds energy, so that v^2 <= v0^2 + 2 g drop. Of a finish that is given friction has its part, too:
+///   with h as above, friction of mu times a load that is never counted negative, and drag that only holds back,
+///   the weighted squared speed e^(-2 mu zeta) v^2 grows by no more than Int h(q) dx. As
+///   h'' = -8 g mu (1 + mu^2) e^(-2 mu atan q)/(1 + q^2)^2 <= 0, h is concave, and that is no more than run * h(drop/run) (Jensen).
+///   The slope angles at the ends, as the limits allow them, give v^2 back. The lower of the two bounds.
+/// @return none where there is no such bound: another body than a point, a wind from behind on a body with drag, a finish that
+///         may lie as deep as one likes
+[[nodiscard]] std::optional<double> most_speed_left(const Problem& problem);
+
 }  // namespace glissade::optimizer

@@ -537,6 +537,42 @@ std::optional<std::string> too_fast(const Problem& problem) {
   return std::nullopt;
 }
 
+/// A lowest speed that no track can reach, whatever its shape, and why.
+struct OutOfEnergy {
+  StatedLimit limit;
+  std::string why;
+};
+
+std::optional<OutOfEnergy> out_of_energy(const Problem& problem) {
+  constexpr double kSurely = 1.0 + 1e-6;  // accuracy: ten times that of a limit
+  const std::optional<double> most = most_speed_left(problem);
+  if (!most) return std::nullopt;
+  const Limits& limits = problem.limits;
+  // A lowest speed on the way holds at the finish where every track is long enough for it to begin.
+  const double shortest = problem.finish.kind == FinishKind::point
+                              ? math::hypot(problem.endpoints.run, problem.endpoints.drop)
+                              : 0.0;
+  const bool at_finish = limits.lowest_speed_from <= shortest;
+  for (const auto& [id, range] :
+       {std::pair(LimitId::exit_speed, &limits.exit_speed), std::pair(LimitId::speed, &limits.speed)}) {
+    if (!range->lowest || !(*range->lowest > kSurely * *most)) continue;
+    if (id == LimitId::speed && !at_finish) continue;
+    const double asked = *range->lowest;
+    const double entry = problem.body.entry_speed;
+    const auto text = [](double speed, int digits) { return quantity_text(speed, Dimension::speed, digits); };
+    const auto [reached, wanted] = texts_apart(*most, asked, text);
+    const double entry2 = entry * entry;
+    const double drop = (asked * asked - entry2) / (2.0 * problem.gravity);
+    const double faster = asked * asked - *most * *most + entry2;
+    return OutOfEnergy{{{id, range->is_fixed() ? Bound::exactly : Bound::lowest}, asked},
+                       "Whatever the shape of the track, the energy equation leaves at most " + reached +
+                           " at the finish. " + wanted + " takes more than " + length_text(drop) +
+                           " of drop, or " + text(std::sqrt(faster), 4) +
+                           " at the entry; friction and drag add to that."};
+  }
+  return std::nullopt;
+}
+
 /// The search for what keeps all limits, and what it ends with where there is nothing.
 class Footing {
  public:
@@ -711,10 +747,11 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   LeastViolation& search = footing.search();
   // Before limits are said to contradict each other a search of another kind, from other starts, has to fail too.
   // Where bends are asked for, the starts were many already, and nothing is said that is not proven.
-  const std::optional<std::string> proof = too_fast(problem);
+  const std::optional<OutOfEnergy> beyond = out_of_energy(problem);
+  const std::optional<std::string> proof = beyond ? beyond->why : too_fast(problem);
   const bool attack = !proof && (!footing.asks_for_bends() || search.astray());
   if (attack && search.from(&scattered_starts, StepModel::flat)) return explanation;
-  if (search.astray()) return explanation;
+  if (search.astray() && !beyond) return explanation;
   Opposition opposition = opposition_of(footing, control);
   if (search.found() || control.stop()) return explanation;
   const bool settled = search.confirmed() && !search.found();
@@ -724,6 +761,8 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   for (const GivingWay& way : opposition.giving) {
     if (const auto relaxation = enough.of(way)) conflict.relaxations.push_back(*relaxation);
   }
+  // Nothing stands against it but energy.
+  if (beyond) conflict.limits = {beyond->limit};
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
   const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());
