@@ -2,6 +2,7 @@
 
 #include "support/catch.hpp"
 
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <string>
@@ -57,4 +58,13 @@ TEST_CASE("two values that a message holds against each other are written with d
         Texts{"33.6901", "33.6899"});
   CHECK(texts_apart(2.0, 2.0, &length_text) == Texts{"2 m", "2 m"});
   CHECK(texts_apart(0.99999, 1.0, &length_text) == Texts{"999.99 mm", "1 m"});
+}
+
+TEST_CASE("a value that bounds refuse is never written as one of them, and in the unit of the bound") {
+  CHECK(text_beyond(10'001.0, {0.0, 10'000.0}, &rounded_text) == "10001");
+  CHECK(text_beyond(10'000'001.0, {-1e7, 1e7}, &length_text) == "10000.001 km");
+  CHECK(text_beyond(12'345.6, {1e4}, &length_text) == "12.35 km");
+  CHECK(text_beyond(std::nextafter(1e4, 2e4), {1e4}, &rounded_text) == "10000.000000000002");
+  // Of the bound itself there is nothing to tell apart.
+  CHECK(text_beyond(1.0, {1.0}, &rounded_text) == "1");
 }

@@ -158,3 +158,11 @@ TEST_CASE("a mass flow that no number of t/h reads as is written in kg/s") {
   CHECK(written_quantity(parse_quantity("400 t/h", Dimension::mass_flow, ""), Dimension::mass_flow) ==
         "400 t/h");
 }
+
+TEST_CASE("a quotient is answered with its value, not with the number before its stroke") {
+  CHECK_THAT(refusal("3/10", Dimension::number),
+             Catch::Matchers::Contains("not a quotient") && Catch::Matchers::EndsWith("Try: 0.3"));
+  CHECK_THAT(refusal("1/20 m", Dimension::length), Catch::Matchers::EndsWith("Try: 0.05 m"));
+  for (const char* const text : {"3/0", "3/x", "1/20 kg"})
+    CHECK_THAT(refusal(text, Dimension::length), !Catch::Matchers::Contains("Try:"));
+}

@@ -1,3 +1,5 @@
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/design/design.hpp"
 
 #include "design/design_text.hpp"
@@ -6,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <variant>
+#include <vector>
 
 namespace design_problems_test {
 
@@ -121,9 +125,9 @@ TEST_CASE("friction is given once, and within its range") {
   CHECK_THAT(problems_with("17 deg", "17 deg\n  friction_coefficient: 0.3"),
              Contains("both friction_angle and friction_coefficient are given"));
   CHECK_THAT(problems_with("17 deg", "95 deg"),
-             StartsWith("d.yaml:7:19: friction angle 95 deg is out of range"));
+             StartsWith("d.yaml:7:19: friction_angle: 95 deg is out of range"));
   CHECK_THAT(problems_with("friction_angle: 17 deg", "friction_coefficient: -0.1"),
-             StartsWith("d.yaml:7:25: friction coefficient -0.1 is out of range"));
+             StartsWith("d.yaml:7:25: friction_coefficient: -0.1 is out of range"));
 }
 
 TEST_CASE("start and finish are two points, the finish below") {
@@ -135,7 +139,7 @@ TEST_CASE("start and finish are two points, the finish below") {
   CHECK_THAT(problems_with("z: 1.1 m", "z: 6.2 m"), Contains("the finish lies level with the start"));
   CHECK_THAT(problems_with("x: 5.4 m", "x: 2e6 m"),
              Contains("d.yaml:5:3: start and finish are 2000 km apart"));
-  CHECK_THAT(problems_with("x: 5.4 m", "x: 2e9 m"), Contains("x: 2000000000 m is too far from the origin"));
+  CHECK_THAT(problems_with("x: 5.4 m", "x: 2e9 m"), Contains("x: 2000000 km is too far from the origin"));
 }
 
 TEST_CASE("one value under the key of a list of frictions is told its own key first") {
@@ -193,7 +197,7 @@ TEST_CASE("sizes are positive") {
   CHECK_THAT(problems_with("17 deg", "17 deg\ngravity: 0 m/s^2"),
              Contains("gravity: 0 m/s^2 is out of range") && !Contains("mean slope"));
   CHECK_THAT(problems_with("x: 5.4 m", "x: 1e300 m"),
-             Contains("x: 1e+300 m is too far from the origin") && !Contains("tolerance"));
+             Contains("x: 1e+297 km is too far from the origin") && !Contains("tolerance"));
   CHECK_THAT(
       problems_with("17 deg", "17 deg\nlimits: {match_belt: {speed: 2 m/s, within: 200 %}}"),
       Contains("within: 200 % is out of range\n      A share of the belt's speed: above 0, at most 100 %."));
@@ -526,6 +530,154 @@ TEST_CASE(
                  Contains("The in-run is 102.9 m long"));
   CHECK_THAT(problems(sound, "count: 1, measuring_place: 102.9 m"), Contains("no ride of this line passes"));
   CHECK_THAT(problems(sound, "count: 1, measuring_place: 102 m"), !Contains("measuring_place"));
+}
+
+namespace {
+
+/// A key with a bound, and what else the design needs for it.
+struct Bounded {
+  std::string key;
+  double bound;  ///< in `unit`
+  std::string unit;
+  double outwards = 1.0;             ///< to which side values are refused
+  std::vector<Override> along = {};  ///< set beside it
+};
+
+std::vector<Bounded> bounded_keys() {
+  const std::vector<Override> drag = {{"body.mass", "80 kg"}, {"body.drag_area", "0.3 m^2"}};
+  const std::vector<Override> stream = {
+      {"stream",
+       "{mass_flow: 10 t/h, bulk_density: 1600 kg/m^3, "
+       "liner_plate: {thickness: 12 mm, hardness: 4 GPa, wear_coefficient: 2e-4}}"},
+      {"body.entry_speed", "2 m/s"}};
+  const std::vector<Override> straight = {{"centerline", "{kind: straight}"}};
+  const auto with = [](std::vector<Override> all, const Override& one) {
+    all.push_back(one);
+    return all;
+  };
+  const auto section = [](const char* text) { return std::vector<Override>{{"cross_section", text}}; };
+  const std::vector<Override> v_channel =
+      section("{kind: v-channel, angle: 90 deg, bottom_radius: 20 mm, wall_height: 100 mm, thickness: 4 mm}");
+  const std::vector<Override> trapezoid =
+      section("{kind: trapezoid, width: 400 mm, wall_height: 250 mm, wall_angle: 30 deg, thickness: 4 mm}");
+  return {
+      {"gravity", 10'000.0, "m/s^2"},
+      {"body.entry_speed", 10'000.0, "m/s"},
+      {"body.friction_coefficient", 10'000.0, ""},
+      {"body.centre_height", 1000.0, "m"},
+      {"body.mass", 1e9, "kg", 1.0, drag},
+      {"body.head_wind", 150.0, "m/s", 1.0, {{"body.drag", "0.01 1/m"}}},
+      {"body.head_wind", -150.0, "m/s", -1.0, {{"body.drag", "0.01 1/m"}}},
+      {"body.air.altitude", 11'000.0, "m", 1.0, drag},
+      {"body.air.altitude", -500.0, "m", -1.0, drag},
+      {"body.air.temperature", 100.0, "degC", 1.0, drag},
+      {"body.air.temperature", -100.0, "degC", -1.0, drag},
+      {"limits.speed.highest", 10'000.0, "m/s"},
+      {"limits.headroom", 1000.0, "km"},
+      {"track.finish.x", 10'000.0, "km"},
+      {"track.finish.x", -10'000.0, "km", -1.0},
+      {"track.start.z", 10'000.0, "km"},
+      {"cross_section.width", 10.0, "km"},
+      {"cross_section.thickness", 0.001, "mm", -1.0},
+      {"cross_section.angle", 170.0, "deg", 1.0, v_channel},
+      {"cross_section.wall_angle", 80.0, "deg", 1.0, trapezoid},
+      {"mesh.largest_kink", 14.0, "deg"},
+      {"mesh.largest_kink", 0.001, "deg", -1.0},
+      {"stream.bulk_density", 30'000.0, "kg/m^3", 1.0, stream},
+      {"stream.bulk_density", 1.0, "kg/m^3", -1.0, stream},
+      {"stream.mass_flow", 3'600'000.0, "t/h", 1.0, stream},
+      {"stream.lateral_pressure_ratio", 10.0, "", 1.0, stream},
+      {"stream.slip_ratio", 1.0, "", 1.0, stream},
+      {"stream.surge", 100.0, "", 1.0, stream},
+      {"stream.surge", 1.0, "", -1.0, stream},
+      {"stream.trickle", 1.0, "", 1.0, stream},
+      {"stream.liner_plate.thickness", 1.0, "m", 1.0, stream},
+      {"stream.liner_plate.wear_coefficient", 1.0, "", 1.0, stream},
+      {"feed.belt_speed", 100.0, "m/s", 1.0,
+       with(stream, {"feed", "{kind: belt, belt_speed: 3 m/s, pulley_radius: 400 mm, drop: 1 m}"})},
+      {"centerline.segments.0.length",
+       1000.0,
+       "km",
+       1.0,
+       {{"centerline", "{kind: segments, entry_slope_angle: 30 deg, segments: [{length: 5 m}]}"}}},
+      {"centerline.entry_slope_angle",
+       90.0,
+       "deg",
+       1.0,
+       {{"centerline", "{kind: segments, entry_slope_angle: 30 deg, segments: [{length: 5 m}]}"}}},
+  };
+}
+
+/// Where the message shows the bound, and as what the value: "gravity: 10001 m/s^2 is ...".
+void tells_apart(const Bounded& bounded, double share) {
+  const double value = bounded.bound + bounded.outwards * std::fabs(bounded.bound) * share;
+  const std::string written = decimal_text(value) + (bounded.unit.empty() ? "" : " " + bounded.unit);
+  std::vector<Override> overrides = bounded.along;
+  overrides.push_back({bounded.key, written});
+  const std::string said = problems_of(kSoundDesign, overrides);
+  CAPTURE(bounded.key, written, said);
+  // "--set gravity: gravity: 10001 m/s^2 is ..."
+  const std::string place = "--set " + bounded.key + ": ";
+  const std::size_t begins = said.find(place);
+  REQUIRE(begins != std::string::npos);
+  const std::size_t at = said.find(": ", begins + place.size()) + 2;
+  const std::string line = said.substr(at, said.find('\n', at) - at);
+  // The number and its unit.
+  std::size_t end = line.find(' ');
+  if (!bounded.unit.empty()) end = line.find(' ', end + 1);
+  const std::string shown = line.substr(0, end);
+  CAPTURE(shown);
+  const auto number = [&](const std::string& text, Dimension dimension) {
+    return parse_quantity(text, dimension, "");
+  };
+  for (const Dimension dimension :
+       {Dimension::number, Dimension::length, Dimension::angle, Dimension::speed, Dimension::acceleration,
+        Dimension::mass, Dimension::density, Dimension::temperature, Dimension::mass_flow}) {
+    const auto asked = read_quantity(written, dimension, "");
+    if (!std::holds_alternative<double>(asked)) continue;
+    const double bound =
+        number(decimal_text(bounded.bound) + (bounded.unit.empty() ? "" : " " + bounded.unit), dimension);
+    CHECK((number(shown, dimension) - bound) * bounded.outwards > 0.0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a value just outside a bound is never shown as the bound, nor inside it") {
+  for (const Bounded& bounded : bounded_keys()) {
+    for (const double share : {1e-3, 1e-6, 1e-9}) tells_apart(bounded, share);
+  }
+}
+
+TEST_CASE("bounds on what ends and angles give are told apart as well") {
+  CHECK_THAT(problems_of(kSoundDesign, {{"body.friction_angle", "89.9999 deg"}}),
+             Contains("friction_angle: 89.9999 deg is out of range") && Contains("89.994 deg"));
+  CHECK_THAT(problems_of(kSoundDesign, {{"body.friction_angle", "89.99428 deg"}}),
+             Contains("friction_angle: 89.9943 deg is out of range"));
+  CHECK_THAT(problems_of(kSoundDesign, {{"track.finish.x", "1000.008 km"}}),
+             Contains("start and finish are 1000.01 km apart"));
+  CHECK_THAT(
+      problems_with("centerline:", "limits: {speed: {lowest: 5.00001 m/s, highest: 5 m/s}}\ncenterline:"),
+      Contains("lowest 5.00001 m/s is above highest 5 m/s"));
+  // Within, friction is held against the mean slope as ever.
+  CHECK_THAT(problems_of(kSoundDesign, {{"body.friction_angle", "43.3635 deg"}}), Contains("mean slope"));
+}
+
+TEST_CASE("a friction out of range is called by its key, and stands where it was set") {
+  CHECK_THAT(
+      problems_of(kSoundDesign, {{"body", "{kind: rolling, radius: 8 mm, rolling_resistance: -0.01}"}}),
+      StartsWith("--set body: rolling_resistance: -0.01 is out of range") && !Contains("tangent"));
+  CHECK_THAT(problems_of(kSoundDesign, {{"body.friction_coefficient", "1e308"}}),
+             StartsWith("--set body.friction_coefficient: friction_coefficient: 1e+308 is out of range"));
+  CHECK_THAT(
+      problems_with("friction_angle: 17 deg", "friction_coefficient: {low: -0.1, nominal: 0.3, high: 0.4}"),
+      Contains("friction_coefficient.low: -0.1 is out of range"));
+  CHECK_THAT(problems_of(kSoundDesign, {{"body.friction_coefficient", "3/10"}}), Contains("Try: 0.3"));
+}
+
+TEST_CASE("a width before the start is refused, the only one too") {
+  CHECK_THAT(problems_with("width: 400 mm", "width: [{at: -50 m, width: 600 mm}]"),
+             Contains("width: the place at -50 m is out of range"));
 }
 
 }  // namespace design_problems_test

@@ -37,8 +37,10 @@ double along_of(double w, double s) {
 
 void require_usable(Angle turn, double end_radius) {
   if (!(turn.radians() > 0.0 && turn <= CubicBend::kMostTurn)) {
-    throw InputError({"", "a cubic bend that turns by " + angle_text(turn) + " is out of range",
-                      "It turns by more than 0 and at most " + angle_text(CubicBend::kMostTurn) + ".", ""});
+    throw InputError(
+        {"",
+         "a cubic bend that turns by " + texts_apart(turn, CubicBend::kMostTurn).first + " is out of range",
+         "It turns by more than 0 and at most " + angle_text(CubicBend::kMostTurn) + ".", ""});
   }
   if (!(end_radius > 0.0 && std::isfinite(end_radius))) {
     throw InputError({"", "the radius of a cubic bend, " + exact_text(end_radius) + " m, is not positive",

@@ -5,6 +5,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 
 #include <algorithm>
@@ -24,12 +25,17 @@ void check_angles(const InRunShape& shape, std::vector<Issue>& problems) {
   const Angle alpha = shape.alpha;
   const std::size_t before = problems.size();
   if (!(gamma > Angle() && gamma < kUpright)) {
-    problems.push_back({"gamma", "gamma: " + angle_text(gamma) + " is out of range",
+    problems.push_back({"gamma",
+                        "gamma: " + quantity_beyond(gamma.radians(), Dimension::angle, {0.0, kRightAngle}) +
+                            " is out of range",
                         "The straight of an in-run falls by more than 0 and less than 90 deg.", "35 deg"});
   }
   if (!(alpha > -kUpright && alpha < kUpright)) {
-    problems.push_back({"alpha", "alpha: " + angle_text(alpha) + " is out of range",
-                        "A table lies between -90 and 90 deg.", "11 deg"});
+    problems.push_back(
+        {"alpha",
+         "alpha: " + quantity_beyond(alpha.radians(), Dimension::angle, {-kRightAngle, kRightAngle}) +
+             " is out of range",
+         "A table lies between -90 and 90 deg.", "11 deg"});
   }
   if (problems.size() != before) return;
   const Angle turn = gamma - alpha;
@@ -40,7 +46,9 @@ void check_angles(const InRunShape& shape, std::vector<Issue>& problems) {
                         "the two exchanged: a straight is some 35 deg steep, a table 11 deg"});
   } else if (shape.transition == InRunTransition::cubic && turn > CubicBend::kMostTurn) {
     problems.push_back(
-        {"gamma", "gamma - alpha: " + angle_text(turn) + " is too much for a cubic transition",
+        {"gamma",
+         "gamma - alpha: " + texts_apart(turn, CubicBend::kMostTurn).first +
+             " is too much for a cubic transition",
          "A cubic parabola whose curvature grows turns by at most " + angle_text(CubicBend::kMostTurn) + ".",
          "transition: clothoid, or circle"});
   }

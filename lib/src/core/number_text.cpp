@@ -1,9 +1,11 @@
 #include "glissade/core/number_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace glissade {
 
@@ -64,6 +66,18 @@ std::pair<std::string, std::string> texts_apart(double a, double b,
 std::pair<std::string, std::string> texts_apart(Angle a, Angle b, int digits) {
   const auto text = [](double radians, int shown) { return angle_text(Angle::from_radians(radians), shown); };
   return texts_apart(a.radians(), b.radians(), text, digits);
+}
+
+std::string text_beyond(double value, std::initializer_list<double> bounds,
+                        const std::function<std::string(double, int)>& text, int digits) {
+  constexpr int kMostDigits = 17;  // rounding: all that a double has
+  std::vector<std::string> taken;
+  for (const double bound : bounds) taken.push_back(text(bound, digits));
+  const auto is_taken = [&](int shown) {
+    return std::find(taken.begin(), taken.end(), text(value, shown)) != taken.end();
+  };
+  while (digits < kMostDigits && is_taken(digits)) ++digits;
+  return text(value, digits);
 }
 
 std::string size_text(double bytes, int digits) {

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace glissade {
@@ -204,6 +205,23 @@ Issue not_a_number(std::string_view name, std::string_view text, Dimension dimen
   return issue;
 }
 
+/// What "3/10", or "1/20 m", would be as one number; the number before the stroke alone is no such thing.
+std::string quotient_hint(std::string_view number, std::string_view unit_text, Dimension dimension) {
+  constexpr int kDigits = 6;  // taste
+  double above = 0.0;
+  double below = 0.0;
+  std::from_chars(number.data(), number.data() + number.size(), above);
+  const std::string_view divisor = trimmed(unit_text.substr(1));
+  const char* const end = divisor.data() + divisor.size();
+  const auto [rest, error] = std::from_chars(divisor.data(), end, below);
+  const std::string_view unit = trimmed({rest, static_cast<std::size_t>(end - rest)});
+  const Unit* const known = find_unit(unit);
+  const bool fits =
+      unit.empty() ? dimension == Dimension::number : known != nullptr && known->dimension == dimension;
+  if (error != std::errc{} || below == 0.0 || !std::isfinite(above / below) || !fits) return "";
+  return rounded_text(above / below, kDigits) + (unit.empty() ? "" : " ") + std::string(unit);
+}
+
 Issue wrong_unit(std::string_view name, std::string_view text, std::string_view number,
                  std::string_view unit_text, Dimension dimension) {
   if (const Unit* unit = find_unit(unit_text)) {
@@ -215,10 +233,14 @@ Issue wrong_unit(std::string_view name, std::string_view text, std::string_view 
   Issue issue{"", named(name, text) + " has the unknown unit " + shown(unit_text), units_that_fit(dimension),
               example(number, dimension)};
   if (unit_text.front() == ',') issue.hint = "a decimal point instead of the comma";
+  if (unit_text.front() == '/') {
+    issue.why = "A value is one decimal number, not a quotient. " + issue.why;
+    issue.hint = quotient_hint(number, unit_text, dimension);
+  }
   return issue;
 }
 
-Issue out_of_range(std::string_view name, std::string_view text) {
+Issue beyond_numbers(std::string_view name, std::string_view text) {
   return {"", named(name, text) + " is beyond the range of numbers",
           "Numbers reach from about 1e-308 to 1e308.", ""};
 }
@@ -248,7 +270,7 @@ std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimen
   double number = 0.0;
   const char* const end = digits.data() + digits.size();
   const auto [rest, error] = std::from_chars(digits.data(), end, number);
-  if (error == std::errc::result_out_of_range) return out_of_range(name, text);
+  if (error == std::errc::result_out_of_range) return beyond_numbers(name, text);
   if (error != std::errc{}) return not_a_number(name, text, dimension);
   if (!std::isfinite(number)) {
     return Issue{"", named(name, text) + " is not finite", units_that_fit(dimension),
@@ -267,7 +289,7 @@ std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimen
     return wrong_unit(name, text, number_text, unit_text, dimension);
   }
   const double value = number * unit->multiply / unit->divide + unit->zero;
-  if (!std::isfinite(value)) return out_of_range(name, text);
+  if (!std::isfinite(value)) return beyond_numbers(name, text);
   return value;
 }
 
@@ -359,6 +381,17 @@ std::string quantity_text(double value, Dimension dimension, int digits) {
   const std::string_view unit = unit_for_people(dimension);
   return rounded_text(in_unit_for_people(value, dimension), digits) + (unit.empty() ? "" : " ") +
          std::string(unit);
+}
+
+std::string quantity_beyond(double value, Dimension dimension, std::initializer_list<double> bounds) {
+  const auto text = [&](double shown, int digits) { return quantity_text(shown, dimension, digits); };
+  return text_beyond(value, bounds, text);
+}
+
+Issue out_of_range(std::string_view name, double value, Dimension dimension,
+                   std::initializer_list<double> bounds, std::string why, std::string hint) {
+  return {"", std::string(name) + ": " + quantity_beyond(value, dimension, bounds) + " is out of range",
+          std::move(why), std::move(hint)};
 }
 
 }  // namespace glissade

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include <cmath>
 
@@ -12,7 +13,9 @@ Friction Friction::from_angle(Angle angle) {
   const double radians = angle.radians();
   if (!(radians >= 0.0 && radians < kRightAngle)) {
     throw InputError(
-        {"", "friction angle " + rounded_text(angle.degrees(), 6) + " deg is out of range",
+        {"",
+         "friction angle " + quantity_beyond(radians, Dimension::angle, {0.0, kRightAngle}) +
+             " is out of range",
          "A friction angle lies between 0 and 90 deg (90 excluded).",
          "the angle at which the material just starts to slide on the track, often 10 to 40 deg"});
   }

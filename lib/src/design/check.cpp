@@ -16,6 +16,11 @@ std::string metres(double value) {
   return rounded_text(value, 4) + " m";
 }
 
+std::string percent_beyond(double share, std::initializer_list<double> bounds) {
+  const auto text = [](double value, int digits) { return rounded_text(100.0 * value, digits) + " %"; };
+  return text_beyond(share, bounds, text);
+}
+
 double run_of(const TrackDesign& track) {
   return math::hypot(track.finish.x - track.start.x, track.finish.y - track.start.y);
 }

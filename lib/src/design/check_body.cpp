@@ -1,6 +1,7 @@
 #include "glissade/core/air.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "design/checks.hpp"
 
@@ -19,20 +20,31 @@ double DragDesign::drag_per_metre() const {
 namespace design_file {
 namespace {
 
-constexpr double kHighestSpeed = 1e4;   // [m/s]
-constexpr double kHighestCentre = 1e3;  // [m]
-constexpr double kHighestWind = 150.0;  // [m/s], beyond any storm
-constexpr double kHeaviest = 1e9;       // [kg]
-constexpr double kFreezing = 273.15;    // [K]
+constexpr double kHighestSpeed = 1e4;    // [m/s]
+constexpr double kHighestGravity = 1e4;  // [m/s^2], taste: a thousand times that of the Earth
+constexpr double kHighestCentre = 1e3;   // [m]
+constexpr double kHighestWind = 150.0;   // [m/s], beyond any storm
+constexpr double kHeaviest = 1e9;        // [kg]
+constexpr double kFreezing = 273.15;     // [K]
 constexpr double kColdest = kFreezing - 100.0;
 constexpr double kHottest = kFreezing + 100.0;
 
-/// @param value  with its unit, as the message shows it
-void check_range(bool fine, const std::string& key, const std::string& value, const std::string& why,
-                 const std::string& hint, Collected& findings) {
-  if (fine) return;
+/// What a value may be; unbounded where infinite.
+struct Within {
+  double least = 0.0;
+  double most = HUGE_VAL;
+  bool above_least = false;
+
+  [[nodiscard]] bool holds(double value) const {
+    return std::isfinite(value) && value <= most && (above_least ? value > least : value >= least);
+  }
+};
+
+void check_range(const std::string& key, double value, Dimension dimension, Within within,
+                 const std::string& why, const std::string& hint, Collected& findings) {
+  if (within.holds(value)) return;
   const std::string last = key.substr(key.rfind('.') + 1);
-  report(findings, {key}, {"", last + ": " + value + " is out of range", why, hint});
+  report(findings, {key}, out_of_range(last, value, dimension, {within.least, within.most}, why, hint));
 }
 
 void check_friction_range(const Design& design, Collected& findings) {
@@ -75,10 +87,11 @@ class KindCheck {
   void resistance(const char*, const char*) const {}
   void length(const std::string& key, double value, double least, double most, const char* why,
               const char* example) {
-    check_range(value >= least && value <= most, "body." + key, length_text(value), why, example, findings_);
+    check_range("body." + key, value, Dimension::length, {least, most}, why, example, findings_);
   }
   void angle(const std::string& key, Angle value, Angle most, const char* why, const char* hint) {
-    check_range(value > Angle() && value <= most, "body." + key, angle_text(value), why, hint, findings_);
+    check_range("body." + key, value.radians(), Dimension::angle, {0.0, most.radians(), true}, why, hint,
+                findings_);
   }
   void grip(const std::optional<Friction>&, const char*) const {}
 
@@ -86,22 +99,27 @@ class KindCheck {
   Collected& findings_;
 };
 
+/// Told in degrees as people tell the weather.
+void check_temperature(double temperature, Collected& findings) {
+  if (temperature >= kColdest && temperature <= kHottest) return;
+  const auto text = [](double kelvin, int digits) {
+    return rounded_text(kelvin - kFreezing, digits) + " degC";
+  };
+  report(findings, {"body.air.temperature"},
+         {"", "temperature: " + text_beyond(temperature, {kColdest, kHottest}, text) + " is out of range",
+          "Air is between -100 degC and 100 degC.", "-5 degC"});
+}
+
 void check_drag_parts(const DragDesign& drag, Collected& findings) {
-  check_range(drag.mass > 0.0 && drag.mass <= kHeaviest, "body.mass", rounded_text(drag.mass, 4) + " kg",
+  check_range("body.mass", drag.mass, Dimension::mass, {0.0, kHeaviest, true},
               "It is positive, and at most 1e9 kg.", "85 kg, with all that moves along", findings);
-  check_range(drag.drag_area >= 0.0 && std::isfinite(drag.drag_area), "body.drag_area",
-              rounded_text(drag.drag_area, 4) + " m^2", "Drag slows the body down.",
+  check_range("body.drag_area", drag.drag_area, Dimension::area, {}, "Drag slows the body down.",
               "drag coefficient x frontal area: 0.25 m^2 of a skier's tuck", findings);
-  check_range(!drag.density || (*drag.density >= 0.0 && std::isfinite(*drag.density)), "body.air.density",
-              rounded_text(drag.density.value_or(0.0), 4) + " kg/m^3", "Air weighs something.", "1.2 kg/m^3",
-              findings);
-  check_range(drag.altitude >= kLowestAltitude && drag.altitude <= kHighestAltitude, "body.air.altitude",
-              length_text(drag.altitude), "It lies between -500 m and 11000 m, in the troposphere.",
-              "metres above sea level", findings);
-  const double temperature = drag.temperature.value_or(kFreezing);
-  check_range(temperature >= kColdest && temperature <= kHottest, "body.air.temperature",
-              rounded_text(temperature - kFreezing, 4) + " degC", "Air is between -100 and 100 degC.",
-              "-5 degC", findings);
+  check_range("body.air.density", drag.density.value_or(0.0), Dimension::density, {}, "Air weighs something.",
+              "1.2 kg/m^3", findings);
+  check_range("body.air.altitude", drag.altitude, Dimension::length, {kLowestAltitude, kHighestAltitude},
+              "It lies between -500 m and 11 km, in the troposphere.", "1200 m, above sea level", findings);
+  check_temperature(drag.temperature.value_or(kFreezing), findings);
 }
 
 void check_drag(const BodyDesign& body, Collected& findings) {
@@ -112,9 +130,8 @@ void check_drag(const BodyDesign& body, Collected& findings) {
            {"", "drag: " + rounded_text(body.drag_per_metre, 4) + " 1/m is negative",
             "Drag slows the body down.", "air density x drag coefficient x frontal area / (2 x mass)"});
   }
-  check_range(std::fabs(body.head_wind) <= kHighestWind, "body.head_wind",
-              rounded_text(body.head_wind, 4) + " m/s", "It lies between -150 m/s, from behind, and 150 m/s.",
-              "3 m/s", findings);
+  check_range("body.head_wind", body.head_wind, Dimension::speed, {-kHighestWind, kHighestWind},
+              "It lies between -150 m/s, from behind, and 150 m/s.", "3 m/s", findings);
   if (body.head_wind == 0.0 || body.drag_per_metre != 0.0) return;
   report(findings, {"body.head_wind"},
          {"", "head_wind: " + rounded_text(body.head_wind, 4) + " m/s on a body without drag",
@@ -156,23 +173,16 @@ void check_body(const Design& design, Collected& findings) {
   visit_measures(body, KindCheck(findings));
   if (body.centre_height) {
     const double height = *body.centre_height;
-    const bool fine =
-        std::isfinite(height) && height <= kHighestCentre && (body.slides() ? height >= 0.0 : height > 0.0);
-    check_range(fine, "body.centre_height", length_text(height),
-                "The centre of mass lies above the track, by at most 1 km.", "0.6 m of a skier", findings);
+    check_range("body.centre_height", height, Dimension::length, {0.0, kHighestCentre, !body.slides()},
+                "The centre of mass lies above the track, by at most 1000 m.", "0.6 m of a skier", findings);
   }
-  if (!(body.entry_speed >= 0.0 && body.entry_speed <= kHighestSpeed)) {
-    report(findings, {"body.entry_speed"},
-           {"", "entry_speed: " + rounded_text(body.entry_speed, 4) + " m/s is out of range",
-            "It lies between 0 and 10000 m/s.", "0 m/s, or no entry_speed, for a start from rest"});
-  }
+  check_range("body.entry_speed", body.entry_speed, Dimension::speed, {0.0, kHighestSpeed},
+              "It lies between 0 and 10000 m/s.", "0 m/s, or no entry_speed, for a start from rest",
+              findings);
   check_drag(body, findings);
   check_closed_forms(design, findings);
-  if (!(design.gravity > 0.0 && design.gravity <= 1e4)) {
-    report(findings, {"gravity"},
-           {"", "gravity: " + rounded_text(design.gravity, 4) + " m/s^2 is out of range",
-            "It is positive, and at most 10000 m/s^2.", "9.81 m/s^2"});
-  }
+  check_range("gravity", design.gravity, Dimension::acceleration, {0.0, kHighestGravity, true},
+              "It is positive, and at most 10000 m/s^2.", "9.81 m/s^2", findings);
 }
 
 }  // namespace design_file

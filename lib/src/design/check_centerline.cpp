@@ -1,4 +1,5 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 
 #include "design/check.hpp"
@@ -12,11 +13,15 @@
 namespace glissade::design_file {
 namespace {
 
+std::string overhanging(Angle slope) {
+  return quantity_beyond(slope.radians(), Dimension::angle, {-kRightAngle, kRightAngle});
+}
+
 void check_segment(const SegmentDesign& segment, const std::string& key_path, Collected& findings) {
   if (segment.length && !(*segment.length > 0.0 && *segment.length <= kLongestTrack)) {
     report(findings, {key_path + ".length"},
-           {"", "length: " + length_text(*segment.length) + " is out of range",
-            "A segment is longer than 0 and at most 1000 km.", ""});
+           out_of_range("length", *segment.length, Dimension::length, {0.0, kLongestTrack},
+                        "A segment is longer than 0 mm and at most 1000 km.", ""));
   }
   if (!std::isfinite(segment.entry_curvature) || !std::isfinite(segment.exit_curvature)) {
     report(findings, {key_path}, {"", "the curvature is not finite", "", ""});
@@ -24,7 +29,7 @@ void check_segment(const SegmentDesign& segment, const std::string& key_path, Co
   const double leads_to = segment.to_slope_angle.value_or(Angle()).radians();
   if (!(std::fabs(leads_to) <= kRightAngle)) {
     report(findings, {key_path + ".to_slope_angle"},
-           {"", "to_slope_angle: " + angle_text(*segment.to_slope_angle) + " overhangs",
+           {"", "to_slope_angle: " + overhanging(*segment.to_slope_angle) + " overhangs",
             "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
   }
 }
@@ -34,7 +39,7 @@ bool check_entry(const CenterlineDesign& centerline, Collected& findings) {
   constexpr double kRounding = 1e-12;
   if (std::fabs(slope) <= kRightAngle + kRounding) return true;
   report(findings, {"centerline.entry_slope_angle"},
-         {"", "entry_slope_angle: " + angle_text(centerline.entry_slope_angle) + " overhangs",
+         {"", "entry_slope_angle: " + overhanging(centerline.entry_slope_angle) + " overhangs",
           "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
   return false;
 }

@@ -1,4 +1,5 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "core/outline.hpp"
 #include "design/checks.hpp"
@@ -23,10 +24,10 @@ class MeasureCheck {
     note(key);
     for (const WidthAt& knot : law.knots()) {
       check(key, knot.width, example);
-      if (knot.at >= 0.0 && knot.at <= kLongestTrack) continue;
-      add(key, {"", key + ": the place at " + length_text(knot.at) + " is out of range",
-                "It is an arc length along the track, from 0 m.", ""});
+      check_place(key, knot.at);
     }
+    // Of one width everywhere the law has no place; what was written has one.
+    if (law.knots().size() == 1) check_place(key, law.last_place());
   }
   void length(const std::string& key, double value, const char* example) {
     note(key);
@@ -59,9 +60,16 @@ class MeasureCheck {
   }
   void check(const std::string& key, double value, const char* example) {
     if (value >= kSmallestMeasure && value <= kLargestMeasure) return;
-    const std::string fault = value > 0.0 ? "out of range" : "not positive";
-    add(key, {"", key + ": " + length_text(value) + " is " + fault, "It lies between 0.001 mm and 10 km.",
-              example});
+    Issue issue = out_of_range(key, value, Dimension::length, {kSmallestMeasure, kLargestMeasure},
+                               "It lies between 0.001 mm and 10 km.", example);
+    if (!(value > 0.0)) issue.what = key + ": " + length_text(value) + " is not positive";
+    add(key, std::move(issue));
+  }
+  void check_place(const std::string& key, double at) {
+    if (at >= 0.0 && at <= kLongestTrack) return;
+    const std::string place = quantity_beyond(at, Dimension::length, {0.0, kLongestTrack});
+    add(key, {"", key + ": the place at " + place + " is out of range",
+              "It is an arc length along the track, from 0 m to 1000 km.", ""});
   }
 
   Collected& findings_;

@@ -47,8 +47,7 @@ void check_between(double value, double least, double most, bool above_least, co
   const bool fine = value <= most && (above_least ? value > least : value >= least);
   if (fine) return;
   const std::string last = key.substr(key.rfind('.') + 1);
-  report(findings, {key},
-         {"", last + ": " + quantity_text(value, dimension) + " is out of range", why, hint});
+  report(findings, {key}, out_of_range(last, value, dimension, {least, most}, why, hint));
 }
 
 void check_feed(const Design& design, Collected& findings) {
@@ -100,11 +99,10 @@ void check_choice(const Range& range, double least, double most, bool above_leas
   check_between(*range.lowest, least, most, above_least, where + ".lowest", dimension, why, hint, findings);
   check_between(*range.highest, least, most, above_least, where + ".highest", dimension, why, hint, findings);
   if (*range.lowest < *range.highest) return;
+  const auto text = [&](double value, int digits) { return quantity_text(value, dimension, digits); };
+  const auto [lowest, highest] = texts_apart(*range.lowest, *range.highest, text);
   report(findings, {where},
-         {"",
-          key + ": lowest, " + quantity_text(*range.lowest, dimension) + ", is above highest, " +
-              quantity_text(*range.highest, dimension),
-          "",
+         {"", key + ": lowest, " + lowest + ", is above highest, " + highest, "",
           "lowest: " + quantity_text(*range.highest, dimension) +
               ", highest: " + quantity_text(*range.lowest, dimension)});
 }
@@ -208,7 +206,7 @@ void check_match(const Design& design, Collected& findings) {
                 "A belt runs: above 0, at most 100 m/s.", "2.5 m/s", findings);
   if (!(match.within > 0.0 && match.within <= 1.0)) {
     report(findings, {"limits.match_belt.within"},
-           {"", "within: " + rounded_text(100.0 * match.within, 4) + " % is out of range",
+           {"", "within: " + percent_beyond(match.within, {0.0, 1.0}) + " is out of range",
             "A share of the belt's speed: above 0, at most 100 %.", "10 %"});
   }
   const double cosine = math::cos(match.direction.radians());

@@ -1,6 +1,7 @@
 #include "glissade/centerline/in_run.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "design/checks.hpp"
 
@@ -15,15 +16,15 @@ void check_lengths(const InRunDesign& in_run, Collected& findings) {
   const auto positive = [&](const std::string& key, const std::optional<double>& value) {
     if (!value || (*value > 0.0 && *value <= kLongestTrack)) return;
     report(findings, {"centerline." + key},
-           {"", key + ": " + length_text(*value) + " is out of range",
-            "A length of an in-run is above 0 and at most 1000 km.", ""});
+           out_of_range(key, *value, Dimension::length, {0.0, kLongestTrack},
+                        "A length of an in-run is above 0 mm and at most 1000 km.", ""));
   };
   positive("e1", in_run.e1);
   positive("e2", in_run.e2);
   if (in_run.es && !(*in_run.es >= 0.0 && *in_run.es <= kLongestTrack)) {
     report(findings, {"centerline.es"},
-           {"", "es: " + length_text(*in_run.es) + " is out of range",
-            "A start area is at least 0 and at most 1000 km long.", ""});
+           out_of_range("es", *in_run.es, Dimension::length, {0.0, kLongestTrack},
+                        "A start area is at least 0 mm and at most 1000 km long.", ""));
   }
   if (in_run.e1 && in_run.e2 && *in_run.e2 > *in_run.e1) {
     report(findings, {"centerline.e2", "centerline.e1"},

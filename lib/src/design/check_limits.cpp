@@ -29,6 +29,12 @@ bool disjoint(const Range& left, const Range& right) {
   return above(left, right) || above(right, left);
 }
 
+/// Two values of one dimension that contradict each other, with the digits that tell them apart.
+std::pair<std::string, std::string> apart(double a, double b, Dimension dimension) {
+  const auto text = [&](double value, int digits) { return quantity_text(value, dimension, digits); };
+  return texts_apart(a, b, text);
+}
+
 std::string range_text(const Range& range, Dimension dimension) {
   const auto text = [&](double value) { return quantity_text(value, dimension); };
   if (range.is_fixed()) return text(*range.lowest);
@@ -83,11 +89,10 @@ void check_concave(const Limits& limits, Collected& findings) {
 void check_loads(const Limits& limits, Collected& findings) {
   if (!limits.highest_normal_load || !limits.lowest_normal_load) return;
   if (*limits.lowest_normal_load <= *limits.highest_normal_load) return;
+  const auto [lowest, highest] =
+      apart(*limits.lowest_normal_load, *limits.highest_normal_load, Dimension::acceleration);
   report(findings, {path("lowest_normal_load"), path("highest_normal_load")},
-         {"",
-          "lowest_normal_load: " + quantity_text(*limits.lowest_normal_load, Dimension::acceleration) +
-              " is above highest_normal_load: " +
-              quantity_text(*limits.highest_normal_load, Dimension::acceleration),
+         {"", "lowest_normal_load: " + lowest + " is above highest_normal_load: " + highest,
           "Nothing lies between them.", "the two the other way round"});
 }
 
@@ -95,17 +100,15 @@ void check_entry_speed(const Design& design, Collected& findings) {
   const Limits& limits = *design.limits;
   const double entry = design.body.entry_speed;
   if (limits.speed.highest && entry > *limits.speed.highest) {
+    const auto [highest, enters] = apart(*limits.speed.highest, entry, Dimension::speed);
     report(findings, {path("speed.highest"), "body.entry_speed"},
-           {"",
-            "speed.highest: " + quantity_text(*limits.speed.highest, Dimension::speed) +
-                " is below the entry speed, " + quantity_text(entry, Dimension::speed),
+           {"", "speed.highest: " + highest + " is below the entry speed, " + enters,
             "The body breaks the limit before the track begins.", "a lower entry_speed"});
   }
   if (limits.speed.lowest && entry < *limits.speed.lowest && limits.lowest_speed_from == 0.0) {
+    const auto [lowest, enters] = apart(*limits.speed.lowest, entry, Dimension::speed);
     report(findings, {path("speed.lowest"), path("speed"), "body.entry_speed"},
-           {"",
-            "speed.lowest: " + quantity_text(*limits.speed.lowest, Dimension::speed) +
-                " is above the entry speed, " + quantity_text(entry, Dimension::speed),
+           {"", "speed.lowest: " + lowest + " is above the entry speed, " + enters,
             "The body is too slow at the start itself.",
             "lowest_from: 0.5 m beside it, the arc length from which it holds"});
   }
@@ -152,9 +155,10 @@ void check_lengths(const Design& design, Collected& findings) {
 // --- clearances ----------------------------------------------------------------------------------------
 
 void check_clearance(double clearance, const std::string& key, Collected& findings) {
-  if (clearance >= 0.0 && clearance <= 1e6) return;
+  if (clearance >= 0.0 && clearance <= kLongestTrack) return;
   report(findings, {path(key) + ".clearance", path(key)},
-         {"", "clearance: " + length_text(clearance) + " is out of range", "It is 0 or more.", ""});
+         out_of_range("clearance", clearance, Dimension::length, {0.0, kLongestTrack},
+                      "It lies between 0 mm and 1000 km.", ""));
 }
 
 void check_line(const std::vector<Vec2>& line, const std::string& key, Collected& findings) {
@@ -319,10 +323,10 @@ void check_shapes(const Limits& limits, Collected& findings) {
 
 void check_headroom(const Limits& limits, Collected& findings) {
   const double headroom = limits.envelope.headroom;
-  if (!(headroom >= 0.0 && headroom <= 1e6)) {
+  if (!(headroom >= 0.0 && headroom <= kLongestTrack)) {
     report(findings, {path("headroom")},
-           {"", "headroom: " + length_text(headroom) + " is out of range",
-            "It is what slides needs above the floor, 0 to 1000 km.", ""});
+           out_of_range("headroom", headroom, Dimension::length, {0.0, kLongestTrack},
+                        "It is what slides needs above the floor, 0 mm to 1000 km.", ""));
     return;
   }
   if (headroom == 0.0) return;

@@ -1,6 +1,7 @@
 #include "glissade/core/capacity.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/section/cross_section.hpp"
 
 #include "design/checks.hpp"
@@ -66,9 +67,10 @@ void check_kink(const Design& design, Collected& findings) {
   const Angle kink = *design.mesh.largest_kink;
   if (kink >= kSmallest && kink <= kLargest) return;
   report(findings, {"mesh.largest_kink"},
-         {"", "largest_kink: " + angle_text(kink) + " is out of range",
-          "Facets that follow a curve meet at 0.001 to 14 deg; without the key, as the tolerance asks.",
-          "0.25 deg for codes that move particles over the mesh"});
+         out_of_range(
+             "largest_kink", kink.radians(), Dimension::angle, {kSmallest.radians(), kLargest.radians()},
+             "Facets that follow a curve meet at 0.001 to 14 deg; without the key, as the tolerance asks.",
+             "0.25 deg for codes that move particles over the mesh"));
 }
 
 }  // namespace

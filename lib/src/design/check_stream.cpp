@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace glissade {
 
@@ -32,8 +33,9 @@ constexpr double kMostOfWidth = (1.0 + 1e-9) / 3.0;  // lumps beyond bridge acro
 void check_between(double value, double least, double most, const std::string& key, Dimension dimension,
                    const std::string& why, const std::string& hint, Collected& findings) {
   if (value >= least && value <= most) return;
-  const std::string fault = value > 0.0 ? " is out of range" : " is not positive";
-  report(findings, {"stream." + key}, {"", key + ": " + quantity_text(value, dimension) + fault, why, hint});
+  Issue issue = out_of_range(key, value, dimension, {least, most}, why, hint);
+  if (!(value > 0.0)) issue.what = key + ": " + quantity_text(value, dimension) + " is not positive";
+  report(findings, {"stream." + key}, std::move(issue));
 }
 
 void check_densities(const StreamDesign& stream, Collected& findings) {
@@ -58,23 +60,21 @@ void check_densities(const StreamDesign& stream, Collected& findings) {
 
 void check_numbers(const StreamDesign& stream, Collected& findings) {
   check_between(stream.mass_flow, kLeastFlow, kGreatestFlow, "mass_flow", Dimension::mass_flow,
-                "A stream carries something, at most 1e6 kg/s.", "650 t/h", findings);
-  const auto number = [&](double value, bool fine, const char* key, const char* why, const char* hint) {
-    if (fine) return;
+                "A stream carries something, at most 3600000 t/h (1e6 kg/s).", "650 t/h", findings);
+  const auto number = [&](double value, double least, double most, bool above_least, const char* key,
+                          const char* why, const char* hint) {
+    if (value <= most && (above_least ? value > least : value >= least)) return;
     report(findings, {std::string("stream.") + key},
-           {"", std::string(key) + ": " + rounded_text(value, 6) + " is out of range", why, hint});
+           out_of_range(key, value, Dimension::number, {least, most}, why, hint));
   };
-  number(stream.lateral_pressure_ratio,
-         stream.lateral_pressure_ratio >= 0.0 && stream.lateral_pressure_ratio <= 10.0,
-         "lateral_pressure_ratio", "Pressure on the side walls over that from above: 0 to 10.",
-         "0.4 to 0.6 of most streams");
-  number(stream.slip_ratio, stream.slip_ratio > 0.0 && stream.slip_ratio <= 1.0, "slip_ratio",
+  number(stream.lateral_pressure_ratio, 0.0, 10.0, false, "lateral_pressure_ratio",
+         "Pressure on the side walls over that from above: 0 to 10.", "0.4 to 0.6 of most streams");
+  number(stream.slip_ratio, 0.0, 1.0, true, "slip_ratio",
          "Speed at the floor over the mean speed: above 0, at most 1.",
          "0.6 of a fast thin stream, 0.2 of a deep slow one");
-  number(stream.surge, stream.surge >= 1.0 && stream.surge <= 100.0, "surge",
-         "The greatest flow over mass_flow: 1 to 100.", "1.5");
-  number(stream.trickle, stream.trickle > 0.0 && stream.trickle <= 1.0, "trickle",
-         "The least flow over mass_flow: above 0, at most 1.", "0.1");
+  number(stream.surge, 1.0, 100.0, false, "surge", "The greatest flow over mass_flow: 1 to 100.", "1.5");
+  number(stream.trickle, 0.0, 1.0, true, "trickle", "The least flow over mass_flow: above 0, at most 1.",
+         "0.1");
 }
 
 void check_plate(const LinerPlateDesign& plate, Collected& findings) {

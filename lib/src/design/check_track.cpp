@@ -1,4 +1,5 @@
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "design/checks.hpp"
 
@@ -21,7 +22,10 @@ void check_coordinates(const Vec3& position, const std::string& key_path, Collec
   for (const auto& [name, value] : coordinates) {
     if (std::fabs(value) <= kFarthestCoordinate) continue;
     report(findings, {key_path + "." + name},
-           {"", std::string(name) + ": " + metres(value) + " is too far from the origin",
+           {"",
+            std::string(name) + ": " +
+                quantity_beyond(value, Dimension::length, {-kFarthestCoordinate, kFarthestCoordinate}) +
+                " is too far from the origin",
             "Coordinates lie within 10000 km of the origin.", "a local origin"});
   }
 }
@@ -142,7 +146,9 @@ void check_track(const Design& design, Collected& findings) {
   }
   if (distance < kShortestTrack || distance > kLongestTrack) {
     report(findings, paths,
-           {"", "start and finish are " + length_text(distance) + " apart",
+           {"",
+            "start and finish are " +
+                quantity_beyond(distance, Dimension::length, {kShortestTrack, kLongestTrack}) + " apart",
             "A track is between 0.1 mm and 1000 km long.", "the units of start and finish"});
     return;
   }

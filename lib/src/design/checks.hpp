@@ -5,6 +5,7 @@
 
 #include "design/findings.hpp"
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,6 +40,9 @@ inline void report(Collected& findings, std::vector<std::string> key_paths, Issu
 
 /// @return the length in metres whatever its size
 [[nodiscard]] std::string metres(double value);
+
+/// @return a share that the bounds refuse, in percent
+[[nodiscard]] std::string percent_beyond(double share, std::initializer_list<double> bounds);
 
 /// @return the horizontal distance of the finish from the start [m]
 [[nodiscard]] double run_of(const TrackDesign& track);

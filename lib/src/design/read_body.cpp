@@ -1,7 +1,10 @@
 #include "design/read_body.hpp"
 
+#include "glissade/centerline/centerline.hpp"
 #include "glissade/core/air.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/design/body_design.hpp"
 
@@ -39,16 +42,39 @@ FrictionValues read_friction_values(const Value& value, Dimension dimension, Fin
   return values;
 }
 
+/// What is wrong with a friction, by the key that people wrote: "rolling_resistance", "friction_angle.low".
+Issue friction_beyond(double value, bool by_coefficient, const std::string& key_path) {
+  std::string key = key_path.substr(key_path.rfind('.') + 1);
+  if (key == "low" || key == "high") key = key_path.substr(key_path.find('.') + 1);
+  if (by_coefficient) {
+    return out_of_range(key, value, Dimension::number, {0.0, kRoughest},
+                        "It lies between 0 and 10000: beyond, closed forms lose their digits.",
+                        key.starts_with("rolling_resistance")
+                            ? "0.002 to 0.05 of most wheels and balls"
+                            : "the tangent of the friction angle, often 0.02 to 0.8");
+  }
+  constexpr int kDigits =
+      6;  // rounding: below it the angle of kRoughest, 89.99427 deg, would be shown as a larger one
+  const auto text = [](double radians, int digits) {
+    return angle_text(Angle::from_radians(radians), digits);
+  };
+  return {
+      "", key + ": " + text_beyond(value, {0.0, kRightAngle}, text, kDigits) + " is out of range",
+      "It lies between 0 deg and 89.994 deg, a coefficient of 10000: beyond, closed forms lose their digits.",
+      "the angle at which the material just starts to slide on the track, often 10 to 40 deg"};
+}
+
 std::optional<Friction> to_friction(const std::optional<double>& value, bool by_coefficient,
                                     const std::string& key_path, Findings& findings) {
   if (!value) return {};
-  try {
-    return by_coefficient ? Friction::from_coefficient(*value)
-                          : Friction::from_angle(Angle::from_radians(*value));
-  } catch (const InputError& error) {
-    findings.add(findings.position(key_path), key_path, error.issues().front());
+  if (!(*value >= 0.0 && *value <= (by_coefficient ? kRoughest : math::atan(kRoughest)))) {
+    findings.add(findings.position(key_path), key_path, friction_beyond(*value, by_coefficient, key_path));
     return {};
   }
+  const Friction friction =
+      by_coefficient ? Friction::from_coefficient(*value) : Friction::from_angle(Angle::from_radians(*value));
+  // tan(atan(kRoughest)) may lie a rounding above it.
+  return friction.coefficient() > kRoughest ? Friction::from_coefficient(kRoughest) : friction;
 }
 
 /// The same as values of the schema; none where a value is missing or bad.

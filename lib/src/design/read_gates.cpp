@@ -5,15 +5,16 @@
 #include "glissade/core/units.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 namespace glissade::design_file {
 namespace {
 
-void add_out_of_range(MapReader& map, std::string_view key, const std::string& text, const std::string& why,
-                      Findings& findings) {
+void add_out_of_range(MapReader& map, std::string_view key, double value, Dimension dimension,
+                      std::initializer_list<double> bounds, const std::string& why, Findings& findings) {
   findings.add(findings.position(map.path_of(key)), map.path_of(key),
-               {"", std::string(key) + ": " + text + " is out of range", why, ""});
+               out_of_range(key, value, dimension, bounds, why, ""));
 }
 
 std::optional<Friction> read_friction(MapReader& map, Findings& findings) {
@@ -26,13 +27,13 @@ std::optional<Friction> read_friction(MapReader& map, Findings& findings) {
     return {};
   }
   if (angle && !(*angle >= 0.0 && *angle < kRightAngle)) {
-    add_out_of_range(map, "friction_angle", angle_text(Angle::from_radians(*angle)),
+    add_out_of_range(map, "friction_angle", *angle, Dimension::angle, {0.0, kRightAngle},
                      "It lies between 0 and 90 deg (90 excluded).", findings);
     return {};
   }
   if (coefficient && !(*coefficient >= 0.0)) {
-    add_out_of_range(map, "friction_coefficient", rounded_text(*coefficient, 4), "It is 0 or larger.",
-                     findings);
+    add_out_of_range(map, "friction_coefficient", *coefficient, Dimension::number, {0.0},
+                     "It is 0 or larger.", findings);
     return {};
   }
   if (angle) return Friction::from_angle(Angle::from_radians(*angle));
@@ -49,12 +50,12 @@ std::optional<ConditionDesign> read_condition(MapReader& top, std::string_view k
   condition.friction = read_friction(map, findings);
   condition.drag_per_metre = map.quantity("drag", Dimension::per_length);
   if (condition.drag_per_metre && *condition.drag_per_metre < 0.0) {
-    add_out_of_range(map, "drag", rounded_text(*condition.drag_per_metre, 4) + " 1/m", "It is 0 or larger.",
-                     findings);
+    add_out_of_range(map, "drag", *condition.drag_per_metre, Dimension::per_length, {0.0},
+                     "It is 0 or larger.", findings);
   }
   condition.drag_area = map.quantity("drag_area", Dimension::area);
   if (condition.drag_area && *condition.drag_area < 0.0) {
-    add_out_of_range(map, "drag_area", rounded_text(*condition.drag_area, 4) + " m^2", "It is 0 or larger.",
+    add_out_of_range(map, "drag_area", *condition.drag_area, Dimension::area, {0.0}, "It is 0 or larger.",
                      findings);
   }
   if (condition.drag_area && condition.drag_per_metre) {
@@ -65,7 +66,7 @@ std::optional<ConditionDesign> read_condition(MapReader& top, std::string_view k
   condition.head_wind = map.quantity("head_wind", Dimension::speed);
   constexpr double kStrongest = 150.0;  // [m/s]
   if (condition.head_wind && std::fabs(*condition.head_wind) > kStrongest) {
-    add_out_of_range(map, "head_wind", rounded_text(*condition.head_wind, 4) + " m/s",
+    add_out_of_range(map, "head_wind", *condition.head_wind, Dimension::speed, {-kStrongest, kStrongest},
                      "It lies between -150 and 150 m/s.", findings);
   }
   map.refuse_unknown_keys();
@@ -76,7 +77,7 @@ std::optional<int> read_count(MapReader& map, Findings& findings) {
   const auto count = map.quantity("count", Dimension::number);
   if (!count) return {};
   if (*count >= 1.0 && *count <= kMostGates && *count == std::floor(*count)) return static_cast<int>(*count);
-  add_out_of_range(map, "count", rounded_text(*count, 6),
+  add_out_of_range(map, "count", *count, Dimension::number, {1.0, static_cast<double>(kMostGates)},
                    "A hill has between 1 and " + std::to_string(kMostGates) + " gates.", findings);
   return {};
 }
@@ -84,7 +85,7 @@ std::optional<int> read_count(MapReader& map, Findings& findings) {
 std::optional<double> read_positive(MapReader& map, std::string_view key, Findings& findings) {
   const auto length = map.quantity(key, Dimension::length);
   if (!length || *length > 0.0) return length;
-  add_out_of_range(map, key, length_text(*length), "It is above 0.", findings);
+  add_out_of_range(map, key, *length, Dimension::length, {0.0}, "It is above 0.", findings);
   return {};
 }
 
@@ -104,8 +105,8 @@ std::optional<GatesDesign> read_gates(MapReader& top, Findings& findings) {
   gates.start_area = read_positive(map, "start_area", findings);
   const auto place = map.quantity("measuring_place", Dimension::length);
   if (place && *place < 0.0) {
-    add_out_of_range(map, "measuring_place", length_text(*place), "It counts back from the edge: 0 or more.",
-                     findings);
+    add_out_of_range(map, "measuring_place", *place, Dimension::length, {0.0},
+                     "It counts back from the edge: 0 or more.", findings);
   }
   gates.measuring_place = place.value_or(gates.measuring_place);
   gates.slow = read_condition(map, "slow", findings);

@@ -5,6 +5,8 @@
 #include "glissade/core/words.hpp"
 #include "glissade/design/materials.hpp"
 
+#include "design/checks.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,7 +67,7 @@ std::optional<MaterialChoice> read_choice(MapReader& map, Findings& findings) {
   choice.moisture = moisture;
   if (moisture && !(*moisture >= 0.0 && *moisture < 1.0)) {
     findings.add(findings.position(map.path_of("moisture")), map.path_of("moisture"),
-                 {"", "moisture: " + rounded_text(100.0 * *moisture, 4) + " % is out of range",
+                 {"", "moisture: " + percent_beyond(*moisture, {0.0, 1.0}) + " is out of range",
                   "Water over the mass of all: 0 to 100 %.", "14 %"});
   }
   return choice;

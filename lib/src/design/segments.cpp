@@ -76,10 +76,11 @@ Drawn cubic_to_slope(const SegmentDesign& segment, double turn) {
                  "{bend: cubic, to_slope_angle: 11 deg, exit_radius: 103 m}");
   }
   if (std::fabs(turn) > CubicBend::kMostTurn.radians()) {
-    return fault(
-        "to_slope_angle",
-        "to_slope_angle: a cubic bend would turn by " + angle_text(Angle::from_radians(std::fabs(turn))),
-        "It turns by at most " + angle_text(CubicBend::kMostTurn) + ".", "bend: clothoid, or two bends");
+    return fault("to_slope_angle",
+                 "to_slope_angle: a cubic bend would turn by " +
+                     texts_apart(Angle::from_radians(std::fabs(turn)), CubicBend::kMostTurn).first,
+                 "It turns by at most " + angle_text(CubicBend::kMostTurn) + ".",
+                 "bend: clothoid, or two bends");
   }
   const bool begins_bent = segment.entry_curvature != 0.0;
   const double curvature = begins_bent ? segment.entry_curvature : segment.exit_curvature;

@@ -264,7 +264,8 @@ std::vector<Issue> corner_problems(const ChannelMeasures& channel, const PlateOp
   if (!tabs) return issues;
   if (!(corners.clearance >= 0.0) || corners.clearance > 0.5 * tabbed) {
     issues.push_back({"corners.clearance",
-                      "clearance: " + length_text(corners.clearance) + " is out of range",
+                      "clearance: " + text_beyond(corners.clearance, {0.0, 0.5 * tabbed}, &length_text) +
+                          " is out of range",
                       "A slot is larger than its tab by 0 to half the plate's thickness, " +
                           length_text(0.5 * tabbed) + ".",
                       "clearance: 0.2 mm"});

@@ -69,9 +69,10 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
     refusals.add("liner.heaviest", "heaviest: " + rounded_text(liner.heaviest, 4) + " kg is not positive", "",
                  "25 kg");
   }
+  const auto percent = [](double share, int digits) { return rounded_text(100.0 * share, digits) + " %"; };
   if (!(liner.worn_from > 0.0 && liner.worn_from <= 1.0)) {
     refusals.add("liner.worn_from",
-                 "worn_from: " + rounded_text(100.0 * liner.worn_from, 6) + " % is out of range",
+                 "worn_from: " + text_beyond(liner.worn_from, {0.0, 1.0}, percent) + " is out of range",
                  "It is a share of the wear where the floor wears most: above 0 to 100 %.", "50 %");
   }
   for (const auto& [value, key] :
@@ -86,7 +87,8 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
   }
   if (!(liner.gap >= 0.0) || liner.gap > 0.1 * channel.width) {
     refusals.add(
-        "liner.gap", "gap: " + length_text(liner.gap) + " is out of range",
+        "liner.gap",
+        "gap: " + text_beyond(liner.gap, {0.0, 0.1 * channel.width}, &length_text) + " is out of range",
         "Gaps between tiles are 0 to a tenth of the floor's width, " + length_text(0.1 * channel.width) + ".",
         "gap: 2 mm");
   }

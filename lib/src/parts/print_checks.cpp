@@ -63,9 +63,10 @@ void check_tongue(const PrintOptions& options, Problems& problems) {
   const double flare = tongue.flare.radians();
   constexpr double kMost = 0.7853981633974483;  // 45 deg
   if (!(flare > 0.0 && flare <= kMost)) {
-    problems.issues.push_back({"tongue.flare",
-                               "flare: " + angle_text(tongue.flare) + " is no flank of a dovetail",
-                               "It leans by more than 0 deg and at most 45 deg.", "10 deg"});
+    problems.issues.push_back(
+        {"tongue.flare",
+         "flare: " + quantity_beyond(flare, Dimension::angle, {0.0, kMost}) + " is no flank of a dovetail",
+         "It leans by more than 0 deg and at most 45 deg.", "10 deg"});
   }
   const bool tongued = options.joint != PrintJoint::dowels;
   if (tongued && options.dowels != DowelOptions{}) {
@@ -95,9 +96,11 @@ void check_stands(const StandOptions& stands, Problems& problems) {
   problems.positive("stands.fit", stands.fit, length_text(stands.fit), "0.2 mm");
   const double steepest = stands.steepest.radians();
   if (!(steepest > 0.0 && steepest < kRightAngle)) {
-    problems.issues.push_back({"stands.steepest",
-                               "steepest: " + angle_text(stands.steepest) + " is no slope that stands hold",
-                               "It lies between 0 deg and 90 deg.", "60 deg"});
+    problems.issues.push_back(
+        {"stands.steepest",
+         "steepest: " + quantity_beyond(steepest, Dimension::angle, {0.0, kRightAngle}) +
+             " is no slope that stands hold",
+         "It lies between 0 deg and 90 deg.", "60 deg"});
   }
 }
 

@@ -5,6 +5,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/section/cross_section.hpp"
 
@@ -65,25 +66,24 @@ class RequireSizes {
 
 void require_thinner(double thickness, const std::string& name, double width) {
   if (thickness < width) return;
-  throw InputError(
-      {"",
-       "thickness: " + length_text(thickness) + " is no thinner than the " + name + ", " + length_text(width),
-       "A plate is thinner than the " + name + " that it encloses.", "the units of both"});
+  const auto [thick, wide] = texts_apart(thickness, width, &length_text);
+  throw InputError({"", "thickness: " + thick + " is no thinner than the " + name + ", " + wide,
+                    "A plate is thinner than the " + name + " that it encloses.", "the units of both"});
 }
 
 void require_between(const std::string& name, Angle angle, Angle least, Angle most, const std::string& why,
                      const std::string& hint) {
   if (angle >= least && angle <= most) return;
-  throw InputError({"", name + ": " + angle_text(angle) + " is out of range",
-                    why + angle_text(least) + " to " + angle_text(most) + ".", hint});
+  throw InputError(out_of_range(name, angle.radians(), Dimension::angle, {least.radians(), most.radians()},
+                                why + angle_text(least) + " to " + angle_text(most) + ".", hint));
 }
 
 void require_more(const std::string& name, double size, const std::string& bound_name, double bound,
                   const std::string& why) {
   if (size > bound) return;
-  throw InputError(
-      {"", name + ": " + length_text(size) + " is too small beside " + bound_name + ", " + length_text(bound),
-       why, "a " + name + " above " + length_text(bound)});
+  const auto [small, beside] = texts_apart(size, bound, &length_text);
+  throw InputError({"", name + ": " + small + " is too small beside " + bound_name + ", " + beside, why,
+                    "a " + name + " above " + beside});
 }
 
 // --- plane figures -------------------------------------------------------------------------------------

@@ -176,11 +176,10 @@ class Faults {
     const bool inside = value >= entry.least && value <= entry.most;
     if (inside && !(above_least && value == entry.least)) return;
     const bool too_low = above_least && value == entry.least;
-    found_.push_back({key,
-                      {"",
-                       key + ": " + quantity_text(value, entry.dimension) +
-                           (too_low ? " is not positive" : " is out of range"),
-                       domain_text(entry), domain_hint(entry, value)}});
+    Issue issue = out_of_range(key, value, entry.dimension, {entry.least, entry.most}, domain_text(entry),
+                               domain_hint(entry, value));
+    if (too_low) issue.what = key + ": " + quantity_text(value, entry.dimension) + " is not positive";
+    found_.push_back({key, std::move(issue)});
   }
 
   void see(const LimitEntry& entry, const Range& range) {
@@ -193,10 +192,10 @@ class Faults {
     if (range.lowest) see(entry, key + ".lowest", *range.lowest, false);
     if (range.highest) see(entry, key + ".highest", *range.highest, entry.above_least);
     if (!range.lowest || !range.highest || *range.lowest <= *range.highest) return;
+    const auto text = [&](double value, int digits) { return quantity_text(value, entry.dimension, digits); };
+    const auto [lowest, highest] = texts_apart(*range.lowest, *range.highest, text);
     found_.push_back({key,
-                      {"",
-                       key + ": lowest " + quantity_text(*range.lowest, entry.dimension) +
-                           " is above highest " + quantity_text(*range.highest, entry.dimension),
+                      {"", key + ": lowest " + lowest + " is above highest " + highest,
                        "Nothing lies between them.", "the two the other way round"}});
   }
 

@@ -3,6 +3,7 @@
 #include "glissade/core/units.hpp"
 
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,12 @@ namespace glissade {
     double a, double b, const std::function<std::string(double, int)>& text, int digits = 4);
 /// The same of two angles.
 [[nodiscard]] std::pair<std::string, std::string> texts_apart(Angle a, Angle b, int digits = 4);
+
+/// A value that bounds refuse, beside whose texts a message shows it.
+/// @param bounds  as `text` writes them with `digits`
+/// @return it with the digits that it takes to tell it from all of them, at most 17: never rounded onto one
+[[nodiscard]] std::string text_beyond(double value, std::initializer_list<double> bounds,
+                                      const std::function<std::string(double, int)>& text, int digits = 4);
 
 /// @return a size of memory or of a file for people: "512 bytes", "3.41 MB"
 [[nodiscard]] std::string size_text(double bytes, int digits = 3);

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -65,5 +66,16 @@ struct UnitName {
 /// @return the value with a unit, for people: "17 deg", "412 mm", "5.4 m", "9.81 m/s^2"; "unbounded" for
 ///         infinity
 [[nodiscard]] std::string quantity_text(double value, Dimension dimension, int digits = 4);
+
+/// A value that bounds refuse; SI, rad.
+/// @return quantity_text() with the digits that tell it from all of the bounds: "10001 m/s", not "10000 m/s"
+[[nodiscard]] std::string quantity_beyond(double value, Dimension dimension,
+                                          std::initializer_list<double> bounds);
+/// What messages say of such a value.
+/// @param name    key or option
+/// @param bounds  those that `why` tells
+/// @return "NAME: VALUE is out of range", its `where` left empty
+[[nodiscard]] Issue out_of_range(std::string_view name, double value, Dimension dimension,
+                                 std::initializer_list<double> bounds, std::string why, std::string hint);
 
 }  // namespace glissade

@@ -7,6 +7,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include <array>
@@ -86,7 +87,9 @@ double shortest(const InRunSizes& sizes) {
 InRunSizes suggested_in_run(double hill_size) {
   if (!(hill_size >= kSmallestHill && hill_size <= kLargestHill)) {
     throw InputError(
-        {"--hill-size", "a hill size of " + length_text(hill_size) + " is out of range",
+        {"--hill-size",
+         "a hill size of " + quantity_beyond(hill_size, Dimension::length, {kSmallestHill, kLargestHill}) +
+             " is out of range",
          "Hills are between " + length_text(kSmallestHill) + " and " + length_text(kLargestHill) + ".",
          "106, of a normal hill; 140, of a large one"});
   }
