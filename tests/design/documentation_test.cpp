@@ -5,6 +5,7 @@
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -99,4 +100,20 @@ TEST_CASE("the errors that the reference shows are those that are told") {
   CHECK(shown("4 mm", "500 mm"));
   CHECK(shown("z: 6.2 m}", "z: 6.2 m"));
   CHECK(shown("17 deg", "48 deg"));
+}
+
+TEST_CASE("the reference counts the designs that are shipped, and has every word of export") {
+  const std::string page = bytes_of(designs_path("../docs/design-file.md"));
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(designs_path("")))
+    count += entry.path().extension() == ".yaml" ? 1 : 0;
+  // Whoever adds one counts anew, in the README too.
+  CHECK(count == 24);
+  CHECK(page.find("`designs/` holds twenty-four that") != std::string::npos);
+  CHECK(bytes_of(designs_path("../README.md")).find("(designs): twenty-four designs") != std::string::npos);
+  const std::string exports = page.substr(page.find("## mesh, export"));
+  for (const auto& format : kWorkshopFiles) {
+    CAPTURE(std::string(format.word));
+    CHECK(exports.find("`" + std::string(format.word) + "`") != std::string::npos);
+  }
 }
