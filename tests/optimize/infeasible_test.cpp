@@ -7,6 +7,7 @@
 #include "support/catch.hpp"
 #include "support/thorough.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -183,4 +184,44 @@ TEST_CASE(
   problem.body.drag_per_metre = 0.05;
   problem.body.head_wind = -60.0;
   CHECK(!proven());
+}
+
+TEST_CASE("a straight end that has a part in a conflict is named, with a length that does") {
+  struct Held {
+    double radius, entry_slope, exit_slope;
+    LimitId lead;
+    double length;
+  };
+  const double degree = std::numbers::pi / 180.0;
+  for (const Held& held : {Held{4.0, 0.0, 5.0 * degree, LimitId::lead_out, 2.0},
+                           Held{6.0, 60.0 * degree, 0.0, LimitId::lead_in, 0.2}}) {
+    Problem problem;
+    problem.endpoints = {5.0, 3.0};
+    problem.body.friction = Friction::from_angle(Angle::from_degrees(8.0));
+    Limits& limits = problem.limits;
+    limits.smallest_valley_radius = limits.smallest_crest_radius = held.radius;
+    if (held.exit_slope > 0.0) limits.exit_slope_angle = Range::fixed(held.exit_slope);
+    if (held.entry_slope > 0.0) limits.entry_slope_angle = Range::fixed(held.entry_slope);
+    double& lead = held.lead == LimitId::lead_in ? limits.lead_in : limits.lead_out;
+    lead = held.length;
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(report.message);
+    CHECK(report.status == OptimizeStatus::infeasible);
+    const auto is_lead = [&](const auto& one) { return one.limit.id == held.lead; };
+    const std::vector<StatedLimit>& stated = report.conflict.limits;
+    const auto named = std::find_if(stated.begin(), stated.end(), is_lead);
+    REQUIRE(named != stated.end());
+    CHECK(named->value == held.length);
+    lead = 0.0;
+    CHECK(optimize(problem).centerline);
+    const std::vector<Relaxation>& relaxations = report.conflict.relaxations;
+    const auto does = std::find_if(relaxations.begin(), relaxations.end(), is_lead);
+    if (held.lead == LimitId::lead_out) REQUIRE(does != relaxations.end());
+    if (does == relaxations.end()) continue;
+    CHECK(does->needed < held.length);
+    lead = does->needed;
+    CHECK(optimize(problem).centerline);
+    lead = std::min(held.length, does->needed + 0.03 * held.length);
+    CHECK_FALSE(optimize(problem).centerline);
+  }
 }

@@ -8,6 +8,7 @@
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -108,6 +109,43 @@ TEST_CASE("streams: the most even speed is the constant-speed curve where there 
   const double rubs = problem.body.friction.coefficient() * problem.body.law->resistance(0.0, 16.0).factor;
   const ConstantSpeedCurve curve(problem.endpoints, Friction::from_coefficient(rubs), problem.gravity, 16.0);
   CHECK(even.centerline->length() == Approx(curve.length()).epsilon(0.01));
+}
+
+TEST_CASE("streams: prices of the most even speed are metres of the integral that it makes least") {
+  // Summed up here over the ride alone, of tracks with the bound a little higher and a little lower.
+  const auto integral = [](const Problem& problem, const Optimum& optimum) {
+    constexpr int kParts = 4000;
+    const Motion motion(optimum.centerline, problem.body);
+    REQUIRE(motion.arrived());
+    const double step = motion.distance() / kParts;
+    double sum = 0.0;
+    for (int i = 0; i < kParts; ++i) {
+      const double uneven = motion.at((i + 0.5) * step).speed / problem.body.entry_speed - 1.0;
+      sum += uneven * uneven * step;
+    }
+    return sum;
+  };
+  Problem problem = ore(4.3, 5.9, 2.5);
+  problem.objective.kind = ObjectiveKind::even_speed;
+  problem.limits.smallest_valley_radius = 2.0;
+  problem.limits.smallest_crest_radius = 2.0;
+  problem.limits.slope_angle.highest = 1.05;
+  const Optimum even = solved(problem);
+  const auto& active = even.report.active;
+  const auto slope = std::find_if(active.begin(), active.end(), [](const ActiveLimit& limit) {
+    return limit.limit.id == LimitId::slope_angle;
+  });
+  REQUIRE(slope != active.end());
+  const auto at = [&](double highest) {
+    Problem other = problem;
+    other.limits.slope_angle.highest = highest;
+    return integral(other, solved(other));
+  };
+  constexpr double kStep = 0.004;
+  const double won = (at(1.05 - kStep) - at(1.05 + kStep)) / (2.0 * kStep);
+  CAPTURE(won, slope->price, slope->price_error);
+  CHECK(slope->price == Approx(won).epsilon(0.05));
+  CHECK(unit_of(problem.objective) == "m");
 }
 
 TEST_CASE("streams: the least wear is what arrives with the most, and rubs less than the fastest track") {

@@ -706,6 +706,30 @@ class Enough {
   SearchControl& control_;
 };
 
+/// Straight ends are no rows of a program, which could tell: they have a part in a conflict where there is a track without
+/// them. Adds those that do, and how long they may be.
+void add_leads(const Problem& problem, const Resolve& resolve, SearchControl& control, Conflict& conflict) {
+  constexpr int kMost = 1500;   // budget: as of any other bound
+  constexpr int kHalvings = 7;  // taste: to a hundredth of the length
+  for (const LimitId id : {LimitId::lead_in, LimitId::lead_out}) {
+    const double length = problem.limits.*entry_of(id).length;
+    const LimitName name{id, entry_of(id).bound};
+    const auto does = [&](double shorter) {
+      const auto changed = with_bound(problem, name, shorter);
+      return changed && !control.stop() && resolve.anew(*changed, kMost, {});
+    };
+    if (!(length > 0.0) || !does(0.0)) continue;
+    conflict.limits.push_back({name, length});
+    double longest = 0.0;
+    double too_long = length;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = as_told(0.5 * (longest + too_long), length, name.dimension());
+      (middle > longest && does(middle) ? longest : too_long) = middle;
+    }
+    if (longest > 0.0) conflict.relaxations.push_back({name, length, longest});
+  }
+}
+
 /// What stands against each other where no track was found, from the best end of all searches for one.
 Opposition opposition_of(Footing& footing, SearchControl& control) {
   // From a better track the reasons are others; how often they are looked for anew.
@@ -763,6 +787,7 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   }
   // Nothing stands against it but energy.
   if (beyond) conflict.limits = {beyond->limit};
+  if (!conflict.limits.empty()) add_leads(problem, resolve, control, conflict);
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
   const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());

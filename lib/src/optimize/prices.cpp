@@ -250,8 +250,11 @@ Priced priced(const ScaledProblem& problem, Found found, Vector ahead, const Opt
 
 namespace {
 
-/// Seconds, or m/s or metres where speed or a length alone counts.
+/// Seconds, or m/s or metres where speed or a length alone counts, or an integral along the track.
 double objective_unit(const ScaledProblem& problem) {
+  // There slownesses are those of the even speed, less what of it is not even: times that speed they add up to the integral.
+  const double even_speed = problem.rides.front().even_speed;
+  if (even_speed > 0.0) return even_speed * problem.chord;
   const double length_or_speed = problem.speed_weight > 0.0 ? problem.speed : problem.chord;
   return problem.time_weight > 0.0 ? problem.time : length_or_speed;
 }

@@ -45,6 +45,7 @@ struct Objective {
       return "m/s";
     case ObjectiveKind::least_drop:
     case ObjectiveKind::least_length:
+    case ObjectiveKind::even_speed:
       return "m";
     case ObjectiveKind::least_load:
       return "m/s^2";
