@@ -16,6 +16,8 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace glissade::app {
 namespace {
@@ -177,6 +179,23 @@ std::vector<std::string> written_by(const CLI::Option& option) {
   return files;
 }
 
+/// Looks that no file is put in the place of the one that standard output or standard error goes to, by its name or as
+/// /dev/stdout: what is printed would go to a file without a name.
+/// @throws InputError with the option
+void require_beside_output(const CLI::Option& option, const std::string& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return;
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat output {};
+    if (::fstat(stream, &output) != 0 || output.st_dev != file.st_dev || output.st_ino != file.st_ino)
+      continue;
+    const std::string which = stream == STDOUT_FILENO ? "standard output" : "standard error";
+    throw InputError({name_of(option), with_visible_characters(path) + " is where " + which + " goes",
+                      "Files are written whole and put in place: what is printed would be lost.",
+                      "another name"});
+  }
+}
+
 /// Whether two names are of one file, whether it is there or not.
 bool is_one_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
@@ -279,6 +298,7 @@ void keep_what_is_read(const CLI::App& program) {
   for (auto one = options.begin(); one != options.end(); ++one) {
     if (!writes_file(given(program), **one)) continue;
     for (const std::string& path : written_by(**one)) {
+      require_beside_output(**one, path);
       if (is_read(given(program), path)) {
         throw InputError({name_of(**one), with_visible_characters(path) + " is read by this command, too",
                           "What it holds would be lost.", "another name"});

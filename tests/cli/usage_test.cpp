@@ -325,3 +325,17 @@ TEST_CASE("profile on a full disk names the file that was asked for, and leaves 
              Contains("out/garmisch_hs142.section.dxf: cannot write") && !Contains(".glissade-"));
   CHECK(place.names().empty());
 }
+
+TEST_CASE("no file takes the place of the one that standard output goes to") {
+  const TempDir place;
+  const std::string output = (place / "o.txt").string();
+  put_bytes(output, "");
+  for (const std::string& name : {std::string("/dev/stdout"), output}) {
+    RunLimits limits;
+    limits.output_to = output;
+    const Outcome outcome = glissade_run({"solve", shipped("grain_chute"), "--csv", name}, limits);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, Contains("--csv: " + name + " is where standard output goes"));
+    CHECK(place.names() == std::vector<std::string>{"o.txt"});
+  }
+}
