@@ -77,7 +77,7 @@ void require(bool holds, Issue issue) {
   if (!holds) throw InputError(std::move(issue));
 }
 
-/// One more than any machine has processors, and no shell that lost a digit.
+/// More than any machine has processors.
 constexpr unsigned kMostJobs = 65'536;  // taste
 
 /// A whole number that an option names, kept as text until here: the parser would take -1 for the largest one there is.

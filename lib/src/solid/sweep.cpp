@@ -572,6 +572,8 @@ class Sweeper {
 // A piece of a level that is shorter than the steps may have been missed: so often finer steps look again.
 constexpr int kFinerForRoom = 3;  // budget
 constexpr double kFiner = 0.2;    // taste
+// Of larger meshes nothing is looked at before they are made.
+constexpr double kMostToLookAt = 5e5;  // budget: triangles
 
 }  // namespace
 
@@ -579,13 +581,20 @@ std::optional<Issue> obstacle_to_sweep(const Centerline& track, const CrossSecti
                                        double tolerance) {
   const WithBreaks centerline(track, Widening(section).knots_between(0.0, track.length()));
   const Placement placement;
-  const SweepOptions options{.tolerance = tolerance};
-  check_options(centerline, section, placement, options);
+  SweepOptions options;
+  options.tolerance = tolerance;
   const Planner planner(centerline, section, options);
   for (int attempt = 1;; ++attempt, tolerance *= kFiner) {
     const Fineness fineness = planner.fineness(tolerance);
+    const bool is_quick =
+        tolerance >= finest_length(centerline, section, placement) && fineness.triangles() <= kMostToLookAt;
+    if (!is_quick) return std::nullopt;
     Sweeper sweeper(centerline, section, placement, planner, fineness);
-    if (sweeper.lay_out()) return std::nullopt;
+    try {
+      if (sweeper.lay_out()) return std::nullopt;
+    } catch (const InputError& error) {
+      return error.issues().front();  // of widths that do not fit a crease
+    }
     if (attempt == kFinerForRoom) return sweeper.refusal();
   }
 }

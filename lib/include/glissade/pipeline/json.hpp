@@ -37,9 +37,10 @@ struct ComparedTrack {
 /// @param common  what all of them have in common; null where each is a design of its own
 [[nodiscard]] std::string comparison_json(const Design* common, const std::vector<ComparedTrack>& tracks);
 
-/// Rules as they are, without a track.
-/// @return what rules may bound, as `glissade rules --quantities --json` prints it
+/// What rules may bound, with the unit of each.
 [[nodiscard]] std::string rule_quantities_json();
+
+/// Rules as they are, without a track.
 [[nodiscard]] std::string rules_json(const std::vector<RuleSet>& sets);
 
 /// What rules say of a track, and those of the shop of its parts.
