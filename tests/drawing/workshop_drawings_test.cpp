@@ -8,7 +8,7 @@
 #include "glissade/io/workshop_tables.hpp"
 
 #include "drawing/balloons.hpp"
-#include "parts/angle_bar.hpp"
+#include "parts/bodies/angle_bar.hpp"
 #include "support/catch.hpp"
 #include "support/shop_parts.hpp"
 

@@ -8,7 +8,7 @@
 #include "glissade/parts/prints.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "support/catch.hpp"
 #include "support/openscad_check.hpp"
 #include "support/oracle.hpp"

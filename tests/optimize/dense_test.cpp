@@ -1,7 +1,7 @@
 // Sums that are compiled anew for wider processors, against the same sums one number at a time: to the last bit. A variant
 // that fused, reordered or widened anything would show.
 
-#include "optimize/dense.hpp"
+#include "optimize/algebra/dense.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

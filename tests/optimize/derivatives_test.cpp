@@ -6,10 +6,10 @@
 #include "glissade/motion/laws/rolling_ball.hpp"
 
 #include "optimize/differences.hpp"
+#include "optimize/discretise/transcription.hpp"
 #include "optimize/places.hpp"
-#include "optimize/rows.hpp"
-#include "optimize/scaled_problem.hpp"
-#include "optimize/transcription.hpp"
+#include "optimize/problem/rows.hpp"
+#include "optimize/problem/scaled_problem.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimize/rows.hpp"
+#include "optimize/problem/rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 // Steps from afar, on one mesh: wherever they begin they end on the same track, and where limits contradict each other
 // where another search lowers the violation no further.
 
-#include "optimize/elastic_descent.hpp"
+#include "optimize/descent/elastic_descent.hpp"
 
 #include "glissade/task/problem.hpp"
 
-#include "optimize/guess.hpp"
-#include "optimize/least_violation.hpp"
-#include "optimize/scaled_problem.hpp"
+#include "optimize/descent/least_violation.hpp"
+#include "optimize/discretise/guess.hpp"
+#include "optimize/problem/scaled_problem.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

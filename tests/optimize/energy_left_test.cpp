@@ -1,6 +1,6 @@
 // The bound that the energy equation sets to slowness, against rides on random tracks.
 
-#include "optimize/energy_left.hpp"
+#include "optimize/conflicts/energy_left.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/motion/motion.hpp"

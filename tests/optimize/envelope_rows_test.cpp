@@ -5,10 +5,10 @@
 
 #include "clearance/strip.hpp"
 #include "optimize/differences.hpp"
+#include "optimize/discretise/transcription.hpp"
 #include "optimize/places.hpp"
-#include "optimize/rows.hpp"
-#include "optimize/scaled_problem.hpp"
-#include "optimize/transcription.hpp"
+#include "optimize/problem/rows.hpp"
+#include "optimize/problem/scaled_problem.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

@@ -4,8 +4,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/optimize/optimize.hpp"
 
-#include "optimize/bound_bracket.hpp"
-#include "optimize/mean_slope.hpp"
+#include "optimize/conflicts/mean_slope.hpp"
+#include "optimize/least_bound/bound_bracket.hpp"
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,12 +1,12 @@
 // Jumps of the curvature far from where they belong: where they are found does not depend on where they were looked for.
 
-#include "optimize/free_spans.hpp"
+#include "optimize/mesh/free_spans.hpp"
 
 #include "glissade/motion/laws/bulk_stream.hpp"
 
-#include "optimize/scaled_problem.hpp"
-#include "optimize/starts.hpp"
-#include "optimize/switches.hpp"
+#include "optimize/mesh/switches.hpp"
+#include "optimize/problem/scaled_problem.hpp"
+#include "optimize/search/starts.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

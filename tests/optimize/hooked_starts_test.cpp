@@ -1,6 +1,6 @@
 // A cap on the speed far below what the drop gives: falls, rides at the cap and hooks.
 
-#include "optimize/hooked_starts.hpp"
+#include "optimize/search/hooked_starts.hpp"
 
 #include "optimize/hooks_by_hand.hpp"
 #include "optimize/solved.hpp"

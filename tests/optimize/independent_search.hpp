@@ -3,7 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/optimize/optimize.hpp"
 
-#include "optimize/changed_bound.hpp"
+#include "optimize/problem/changed_bound.hpp"
 #include "optimize/random_limits.hpp"
 #include "referee/judgement.hpp"
 #include "support/catch.hpp"

@@ -2,8 +2,8 @@
 // friction, a mirror, another size, another height.
 
 #include "clearance/random_case.hpp"
-#include "optimize/changed_bound.hpp"
 #include "optimize/drawn_problems.hpp"
+#include "optimize/problem/changed_bound.hpp"
 #include "optimize/random_limits.hpp"
 #include "optimize/variations.hpp"
 #include "support/catch.hpp"

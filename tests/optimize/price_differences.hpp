@@ -4,7 +4,7 @@
 #include "glissade/motion/motion.hpp"
 #include "glissade/optimize/optimize.hpp"
 
-#include "optimize/changed_bound.hpp"
+#include "optimize/problem/changed_bound.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Prices of random problems against central differences of re-solves.
 
-#include "optimize/changed_bound.hpp"
 #include "optimize/drawn_problems.hpp"
 #include "optimize/price_differences.hpp"
+#include "optimize/problem/changed_bound.hpp"
 #include "optimize/random_limits.hpp"
 #include "support/catch.hpp"
 #include "support/thorough.hpp"

@@ -1,6 +1,6 @@
 // The dual active-set method, held against the conditions that a minimum of a convex program is known by.
 
-#include "optimize/quadratic_program.hpp"
+#include "optimize/algebra/quadratic_program.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,6 +1,6 @@
 // A bend that changes places with part of the stretch beside it: the same curvature in another order.
 
-#include "optimize/shifted_bends.hpp"
+#include "optimize/search/shifted_bends.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,12 +1,12 @@
 // What searches begin with.
 
-#include "optimize/starts.hpp"
+#include "optimize/search/starts.hpp"
 
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/motion/motion.hpp"
 
+#include "optimize/problem/scaled_problem.hpp"
 #include "optimize/random_limits.hpp"
-#include "optimize/scaled_problem.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

@@ -1,12 +1,12 @@
 // What of a line a track can touch, held against curves that bend no more sharply.
 
-#include "optimize/touchable_line.hpp"
+#include "optimize/problem/touchable_line.hpp"
 
 #include "glissade/core/vec.hpp"
 #include "glissade/optimize/optimize.hpp"
 
-#include "optimize/feet.hpp"
-#include "optimize/scaled_problem.hpp"
+#include "optimize/problem/feet.hpp"
+#include "optimize/problem/scaled_problem.hpp"
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -4,8 +4,8 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "clearance/random_case.hpp"
-#include "optimize/changed_bound.hpp"
 #include "optimize/drawn_problems.hpp"
+#include "optimize/problem/changed_bound.hpp"
 #include "optimize/random_limits.hpp"
 #include "support/random.hpp"
 

@@ -1,14 +1,14 @@
 // Angles, tubes and flat bars longer than what they come in. Every build proves that their pieces do not clash and that every
 // hole meets its like.
 
-#include "parts/bar_pieces.hpp"
+#include "parts/plates/bar_pieces.hpp"
 
 #include "glissade/core/slot.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/angle_bar.hpp"
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/angle_bar.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"

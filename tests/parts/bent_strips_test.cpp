@@ -5,9 +5,9 @@
 #include "glissade/io/step_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_depth.hpp"
-#include "parts/body_edges.hpp"
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_depth.hpp"
+#include "parts/bodies/body_edges.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"

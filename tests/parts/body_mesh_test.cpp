@@ -1,9 +1,9 @@
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_mesh.hpp"
 
 #include "glissade/core/math.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_moments.hpp"
+#include "parts/bodies/body_moments.hpp"
 #include "support/catch.hpp"
 #include "support/shop_parts.hpp"
 

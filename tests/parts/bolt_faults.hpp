@@ -3,7 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/parts/plates.hpp"
 
-#include "parts/bolted.hpp"
+#include "parts/shop/bolted.hpp"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "parts/bolts.hpp"
+#include "parts/shop/bolts.hpp"
 
 #include "glissade/core/error.hpp"
 

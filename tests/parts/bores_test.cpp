@@ -1,16 +1,16 @@
 // Holes drilled through plates that are rolled: in bodies, solids and facets as in patterns.
 
-#include "parts/bores.hpp"
+#include "parts/bodies/bores.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_depth.hpp"
-#include "parts/body_edges.hpp"
-#include "parts/body_mesh.hpp"
-#include "parts/body_moments.hpp"
+#include "parts/bodies/body_depth.hpp"
+#include "parts/bodies/body_edges.hpp"
+#include "parts/bodies/body_mesh.hpp"
+#include "parts/bodies/body_moments.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"

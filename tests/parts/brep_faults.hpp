@@ -2,7 +2,7 @@
 
 // What keeps faces of a part from being the surface of a solid.
 
-#include "parts/brep.hpp"
+#include "parts/bodies/brep.hpp"
 
 #include <cmath>
 #include <cstddef>

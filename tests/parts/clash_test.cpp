@@ -1,6 +1,6 @@
 // The proof that no two parts clash, on bodies whose faces lie in one another's: no edge of either is inside the other.
 
-#include "parts/clash.hpp"
+#include "parts/bodies/clash.hpp"
 
 #include "glissade/core/error.hpp"
 #include "glissade/parts/shop_part.hpp"

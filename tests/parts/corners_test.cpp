@@ -7,8 +7,8 @@
 #include "glissade/io/step_file.hpp"
 #include "glissade/parts/plates.hpp"
 
-#include "parts/body_depth.hpp"
-#include "parts/body_moments.hpp"
+#include "parts/bodies/body_depth.hpp"
+#include "parts/bodies/body_moments.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"

@@ -1,14 +1,14 @@
 // Equal parts get one number, however they lie; what differs, or is formed the other way, gets its own.
 
-#include "parts/equal_parts.hpp"
+#include "parts/shop/equal_parts.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/body_depth.hpp"
-#include "parts/body_edges.hpp"
-#include "parts/body_moments.hpp"
+#include "parts/bodies/body_depth.hpp"
+#include "parts/bodies/body_edges.hpp"
+#include "parts/bodies/body_moments.hpp"
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,6 +1,6 @@
 // Flats of bent floors and mitred tubes: one behind the other, whatever way a track turns.
 
-#include "parts/facets.hpp"
+#include "parts/bodies/facets.hpp"
 
 #include "glissade/parts/arc_spline.hpp"
 

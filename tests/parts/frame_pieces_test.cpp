@@ -1,7 +1,7 @@
 // Frames, rings and stiffeners larger than the sheet, cut between their bolts. Every build proves that pieces do not clash and
 // that every hole meets its like.
 
-#include "parts/frame_pieces.hpp"
+#include "parts/plates/frame_pieces.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/slot.hpp"

@@ -1,10 +1,10 @@
 // Joints of arcs along a clothoid, whose best error is known.
 
-#include "parts/joint_fit.hpp"
+#include "parts/curves/joint_fit.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 
-#include "parts/joint_search.hpp"
+#include "parts/curves/joint_search.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

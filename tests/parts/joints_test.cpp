@@ -5,7 +5,7 @@
 
 #include "parts/bolt_faults.hpp"
 #include "parts/chute_plates.hpp"
-#include "parts/joint_steps.hpp"
+#include "parts/strips/joint_steps.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

@@ -1,12 +1,12 @@
 // How few arcs a stretch beside kept pieces takes: against arcs that are tried.
 
-#include "parts/least_arcs.hpp"
+#include "parts/curves/least_arcs.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/parts/master_curve.hpp"
 
-#include "parts/fewest_arcs.hpp"
+#include "parts/curves/fewest_arcs.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/thorough.hpp"

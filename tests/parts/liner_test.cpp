@@ -4,8 +4,8 @@
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/parts/plates.hpp"
 
+#include "parts/bodies/facets.hpp"
 #include "parts/chute_plates.hpp"
-#include "parts/facets.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/pipeline.hpp"
 
-#include "parts/offset_line.hpp"
+#include "parts/curves/offset_line.hpp"
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/random.hpp"

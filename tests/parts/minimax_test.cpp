@@ -1,6 +1,6 @@
 // The linear programme against best approximations that are known.
 
-#include "parts/minimax.hpp"
+#include "parts/curves/minimax.hpp"
 
 #include "support/catch.hpp"
 

@@ -1,6 +1,6 @@
 // The nearest place of a track against many places of it.
 
-#include "parts/nearest_place.hpp"
+#include "parts/curves/nearest_place.hpp"
 
 #include "glissade/core/math.hpp"
 

@@ -1,6 +1,6 @@
 // What rules of the shop are told of holes, on patterns whose distances are known by hand.
 
-#include "parts/plate_facts.hpp"
+#include "parts/plates/plate_facts.hpp"
 
 #include "glissade/core/slot.hpp"
 

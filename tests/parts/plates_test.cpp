@@ -7,10 +7,10 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
+#include "parts/bodies/clash.hpp"
+#include "parts/bodies/facets.hpp"
 #include "parts/chute_plates.hpp"
-#include "parts/clash.hpp"
-#include "parts/facets.hpp"
-#include "parts/offset_line.hpp"
+#include "parts/curves/offset_line.hpp"
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -1,14 +1,14 @@
 // Plates that are wider than strips may be: cut along the track, off what is set in them. Every build proves that strips add up to
 // the section and do not clash.
 
-#include "parts/seams.hpp"
+#include "parts/plates/seams.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/parts/plates.hpp"
 
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
-#include "parts/section_seams.hpp"
+#include "parts/strips/section_seams.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/thorough.hpp"

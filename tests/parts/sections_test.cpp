@@ -7,7 +7,7 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"

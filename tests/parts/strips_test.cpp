@@ -7,9 +7,9 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/section/cross_section.hpp"
 
-#include "parts/body_depth.hpp"
-#include "parts/body_moments.hpp"
-#include "parts/brep.hpp"
+#include "parts/bodies/body_depth.hpp"
+#include "parts/bodies/body_moments.hpp"
+#include "parts/bodies/brep.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"

@@ -1,6 +1,6 @@
 // What holds timber together: screws deep enough and short enough, as many as spacings ask for.
 
-#include "parts/timber_fasteners.hpp"
+#include "parts/timber/timber_fasteners.hpp"
 
 #include "glissade/core/math.hpp"
 #include "glissade/parts/timber.hpp"

@@ -7,9 +7,9 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/ground.hpp"
 #include "parts/refusals.hpp"
-#include "parts/timber_frame.hpp"
+#include "parts/supports/ground.hpp"
+#include "parts/timber/timber_frame.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shop_rules.hpp"

@@ -1,6 +1,6 @@
 // Trapezoids, half-pipes and V-channels in timber: strips that develop, templates that carry them, seams above templates.
 
-#include "parts/timber_trough.hpp"
+#include "parts/timber/timber_trough.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/arc_path.hpp"
@@ -9,8 +9,8 @@
 #include "glissade/parts/timber.hpp"
 #include "glissade/section/cross_section.hpp"
 
-#include "parts/body_depth.hpp"
-#include "parts/body_moments.hpp"
+#include "parts/bodies/body_depth.hpp"
+#include "parts/bodies/body_moments.hpp"
 #include "parts/refusals.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"

@@ -5,7 +5,7 @@
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/flights.hpp"
 
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

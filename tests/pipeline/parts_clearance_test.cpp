@@ -5,7 +5,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/pipeline.hpp"
 
-#include "parts/body_edges.hpp"
+#include "parts/bodies/body_edges.hpp"
 #include "support/catch.hpp"
 
 #include <algorithm>

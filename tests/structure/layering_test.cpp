@@ -101,6 +101,38 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
   return found;
 }
 
+/// Folders of one module, the lowest first: each may know those before it, and what lies in none of them all.
+const std::map<std::string, std::vector<std::string>> kFolders = {
+    {"optimize",
+     {"algebra", "discretise", "problem", "descent", "mesh", "search", "conflicts", "prices", "least_bound"}},
+    {"parts", {"curves", "bodies", "shop", "plates", "strips", "tubes", "supports", "timber", "prints"}},
+};
+
+/// @return what breaks the order of folders in one file of a module; `path` is relative to the project
+std::vector<std::string> folder_violations(const std::string& path, const std::string& text) {
+  static const std::regex kFolder(R"re(^(?:lib/src/)?([a-z_]+)/([a-z_]+)/)re");
+  std::vector<std::string> found;
+  const auto folder_of = [](const std::string& name) {
+    std::smatch match;
+    const bool has_one = std::regex_search(name, match, kFolder) && kFolders.contains(match[1]);
+    return has_one ? std::pair(std::string(match[1]), std::string(match[2]))
+                   : std::pair<std::string, std::string>();
+  };
+  const auto [module, folder] = folder_of(path);
+  if (module.empty()) return found;
+  const std::vector<std::string>& order = kFolders.at(module);
+  const auto place = std::find(order.begin(), order.end(), folder);
+  if (place == order.end()) return {path + " lies in a folder that kFolders does not know"};
+  for (const std::string& include : includes_of(text)) {
+    const auto [other_module, other] = folder_of(include);
+    const bool is_private = !include.starts_with("glissade/") && include.starts_with(module + "/");
+    if (!is_private) continue;
+    if (other_module.empty() || std::find(order.begin(), place + 1, other) == place + 1)
+      found.push_back(path + " includes " + include + ", which stands above it");
+  }
+  return found;
+}
+
 /// @return the namespace that what a private header of the module declares belongs to
 std::string private_namespace(const std::string& module) {
   // Two folders are named as a public function or type is.
@@ -219,6 +251,27 @@ TEST_CASE("every file of the library includes only what its layer may know") {
   CHECK(found == std::vector<std::string>{});
 }
 
+TEST_CASE("folders of a module know only those below them") {
+  CHECK(
+      folder_violations("lib/src/optimize/mesh/a.cpp", "#include \"optimize/descent/search.hpp\"\n").empty());
+  CHECK(folder_violations("lib/src/optimize/descent/a.cpp", "#include \"optimize/mesh/switches.hpp\"\n")
+            .size() == 1);
+  CHECK(folder_violations("lib/src/parts/curves/a.cpp", "#include \"parts/plates.hpp\"\n").size() == 1);
+  CHECK(folder_violations("lib/src/parts/gadgets/a.cpp", "").size() == 1);
+  CHECK(folder_violations("lib/src/parts/plates.cpp", "#include \"parts/tubes/mitred_pipe.hpp\"\n").empty());
+  std::vector<std::string> found;
+  std::size_t seen = 0;
+  for (const auto& [module, order] : kFolders) {
+    for (const fs::path& file : sources_below("lib/src/" + module)) {
+      ++seen;
+      for (const std::string& violation : folder_violations(relative_name(file), text_of(file)))
+        found.push_back(violation);
+    }
+  }
+  CHECK(seen > 250);
+  CHECK(found == std::vector<std::string>{});
+}
+
 TEST_CASE("what a private header declares lies in a namespace of its module") {
   std::vector<std::string> found;
   static const std::regex kNamespace(R"re(\nnamespace ([a-z_:]+) \{)re");
@@ -305,7 +358,7 @@ TEST_CASE("a limit, a format, a section and a law stand in the files that docs/d
   const std::string in = "lib/include/glissade/";
   CHECK(files_naming("highest_curvature_load") ==
         std::set<std::string>{in + "task/limits.hpp", "lib/src/task/limit_catalogue.cpp",
-                              "lib/src/referee/watches.cpp", "lib/src/optimize/measures.cpp"});
+                              "lib/src/referee/watches.cpp", "lib/src/optimize/problem/measures.cpp"});
   // One of three that a design without `export` gets, which makes it five here.
   CHECK(files_naming("write_scad|ExportFormat::scad") ==
         std::set<std::string>{in + "core/file_format.hpp", "lib/src/pipeline/formats.cpp",
@@ -313,7 +366,7 @@ TEST_CASE("a limit, a format, a section and a law stand in the files that docs/d
                               in + "design/design.hpp"});
   CHECK(files_naming("VChannel") ==
         std::set<std::string>{in + "section/measures.hpp", "lib/src/section/shapes.cpp",
-                              "lib/src/section/cross_section.cpp", "lib/src/parts/plate_section.cpp"});
+                              "lib/src/section/cross_section.cpp", "lib/src/parts/plates/plate_section.cpp"});
   CHECK(files_naming("RollingBall|RollingDesign") ==
         std::set<std::string>{in + "motion/laws/rolling_ball.hpp", "lib/src/motion/laws/rolling_ball.cpp",
                               in + "design/body_design.hpp", "lib/src/pipeline/body.cpp"});

@@ -9,7 +9,7 @@
 #include "drawing/ordinates.hpp"
 #include "drawing/sheet_words.hpp"
 #include "drawing/views.hpp"
-#include "parts/angle_bar.hpp"
+#include "parts/bodies/angle_bar.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "glissade/drawing/workshop_drawings.hpp"
 
 #include "core/millimetres.hpp"
-#include "parts/brep.hpp"
+#include "parts/bodies/brep.hpp"
 
 #include <algorithm>
 #include <cmath>

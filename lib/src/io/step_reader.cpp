@@ -4,7 +4,7 @@
 
 #include "io/byte_source.hpp"
 #include "io/step_names.hpp"
-#include "parts/brep.hpp"
+#include "parts/bodies/brep.hpp"
 
 #include <algorithm>
 #include <charconv>

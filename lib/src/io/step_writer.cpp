@@ -6,8 +6,8 @@
 
 #include "core/millimetres.hpp"
 #include "io/step_names.hpp"
-#include "parts/bores.hpp"
-#include "parts/brep.hpp"
+#include "parts/bodies/bores.hpp"
+#include "parts/bodies/brep.hpp"
 
 #include <array>
 #include <bit>

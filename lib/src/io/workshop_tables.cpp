@@ -6,7 +6,7 @@
 
 #include "core/least_rectangle.hpp"
 #include "core/millimetres.hpp"
-#include "parts/angle_bar.hpp"
+#include "parts/bodies/angle_bar.hpp"
 
 #include <algorithm>
 #include <cmath>

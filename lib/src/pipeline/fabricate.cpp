@@ -8,7 +8,7 @@
 #include "glissade/parts/timber.hpp"
 #include "glissade/pipeline/shop_rules.hpp"
 
-#include "parts/shop_facts.hpp"
+#include "parts/shop/shop_facts.hpp"
 #include "pipeline/body.hpp"
 #include "pipeline/hood_parts.hpp"
 #include "pipeline/located.hpp"

@@ -5,8 +5,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 
-#include "parts/clash.hpp"
-#include "parts/workshop_list.hpp"
+#include "parts/bodies/clash.hpp"
+#include "parts/shop/workshop_list.hpp"
 #include "pipeline/hood.hpp"
 
 #include <algorithm>

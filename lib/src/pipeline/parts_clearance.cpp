@@ -8,7 +8,7 @@
 #include "glissade/pipeline/solve.hpp"
 
 #include "core/plane_geometry.hpp"
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "task/obstacles.hpp"
 
 #include <algorithm>

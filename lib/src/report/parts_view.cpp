@@ -3,7 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "parts/body_mesh.hpp"
+#include "parts/bodies/body_mesh.hpp"
 #include "report/serial/packed.hpp"
 #include "report/view_mesh.hpp"
 

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "glissade/optimize/optimize.hpp"
+
+#include "optimize/descent/search.hpp"
+#include "optimize/problem/scaled_problem.hpp"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace glissade::optimizer {
+
+/// What the reach theorem alone forbids (docs/theory.md): from rest, no track leads to a finish whose mean
+/// slope is not steeper than the steepest friction angle.
+[[nodiscard]] std::optional<Conflict> beyond_reach(const Problem& problem);
+
+/// A track that keeps all limits, to start from.
+struct Foothold {
+  std::size_t passages = 0;  ///< which of the passages it belongs to
+  Mesh mesh;
+  Vector z;
+};
+
+/// With which curve, of all that bends are looked for from, a search began.
+struct Beginning {
+  std::size_t passages = 0;
+  std::size_t curve = 0;
+  LimitName limit;  ///< that asks for bends, and gives way alone
+};
+
+/// How a problem with another bound is solved: what is said to be enough has to be.
+struct Resolve {
+  /// From the search's own starts; where bends are looked for, from the likely ones alone if there are any, and from these
+  /// before all others. It ends after so many evaluations more, whatever is found by then.
+  std::function<bool(const Problem&, int most_evaluations, const std::vector<Beginning>& likely)> anew;
+  std::function<bool(const Problem&, const Foothold&)> from;
+};
+
+/// Searches on from tracks that keep all limits at the stations of their meshes; of several the best one counts.
+/// @return whether to look no further: a track was found that keeps them everywhere, or the search was asked to end
+using Leads = std::function<bool(const std::vector<Foothold>&)>;
+
+/// What stands against all limits together, where nothing was found that keeps them.
+struct Explanation {
+  /// Limits that stand against each other, and what would do; text only where that is certain.
+  Conflict conflict;
+  bool certain = false;
+};
+
+/// Looks for tracks that keep all limits where bends are looked for, from likely beginnings.
+/// @return whether one led somewhere
+bool has_likely_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                        SearchControl& control, const std::vector<Beginning>& likely);
+
+/// The same from starts of every kind.
+/// @param bends  whether they are looked for
+bool has_footing(const Problem& problem, const std::vector<Passages>& passages, const Leads& leads,
+                 SearchControl& control, bool bends);
+
+/// The same, and from starts of no kind; where none leads somewhere, what stands in the way.
+[[nodiscard]] Explanation explain(const Problem& problem, const std::vector<Passages>& passages,
+                                  const Leads& leads, const Resolve& resolve, SearchControl& control);
+
+}  // namespace glissade::optimizer

@@ -1,0 +1,372 @@
+#include "optimize/least_bound/least_bound.hpp"
+
+#include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/core/math.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
+#include "glissade/referee/referee.hpp"
+
+#include "optimize/conflicts/mean_slope.hpp"
+#include "optimize/least_bound/bound_bracket.hpp"
+#include "optimize/least_bound/most_reached.hpp"
+#include "optimize/search/patience.hpp"
+#include "optimize/search/starts.hpp"
+#include "referee/judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade::optimizer {
+namespace {
+
+constexpr int kMostSearches = 48;        // budget
+constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted; accuracy
+constexpr double kSpeedReached = 1e-6;   // of the speed wanted: ten times the accuracy of a limit
+// The least bound is looked at from so far below: a search that lost its way at it would show there.
+constexpr double kNeighbour = 1e-4;  // taste
+
+class LeastBound {
+ public:
+  LeastBound(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
+             const Progress& progress)
+      : asked_(problem),
+        options_(options),
+        stop_(stop),
+        progress_(progress),
+        outlay_(options, stop),
+        tried_(problem),
+        wanted_(*problem.limits.exit_speed.lowest) {
+    const bool load = problem.objective.kind == ObjectiveKind::least_load;
+    member_ = load ? &Limits::highest_normal_load : &Limits::highest_curvature_rate;
+    name_ = {load ? LimitId::highest_normal_load : LimitId::highest_curvature_rate, Bound::highest};
+    tried_.objective.kind = ObjectiveKind::exit_speed;
+    tried_.limits.exit_speed.lowest.reset();
+  }
+
+  [[nodiscard]] Optimum found() {
+    bracket_.learn(least_known(), Verdict::kept_by_none);
+    const std::optional<Straight> straight = gentlest_straight();
+    if (straight && straight->reached - bracket_.tight <= bracket_.accuracy() * straight->reached)
+      return told(*straight);
+    if (std::optional<Optimum> none = begin(); none && !straight)
+      return outlay_.told(*std::move(none), asked_.objective);
+    if (straight && (!best_.centerline || straight->reached < reached_by(best_.centerline))) take(*straight);
+    bracket_.loose = reached_by(best_.centerline);
+    close(std::min(0.95 * bracket_.loose, of_a_short_bend(best_.centerline)));
+    for (int round = 0; round < kMostNeighbours && settled_ && !outlay_.ends(); ++round) {
+      if (!does_below()) break;
+    }
+    return priced();
+  }
+
+ private:
+  Optimum searched(const Problem& problem) {
+    OptimizeOptions options = options_;
+    options.time_budget = outlay_.left();
+    Optimum optimum = optimize(problem, options, stop_, progress_);
+    ++searches_;
+    outlay_.add(optimum.report);
+    return optimum;
+  }
+  Optimum within(const std::optional<double>& bound) {
+    tried_.limits.*member_ = bound;
+    return searched(tried_);
+  }
+  /// Another way to the same bound, for what the one by the greatest speed leaves open.
+  Optimum asking_for_speed(const std::optional<double>& bound) {
+    Problem problem = asked_;
+    problem.limits.*member_ = bound;
+    problem.objective.kind = ObjectiveKind::travel_time;
+    return searched(problem);
+  }
+
+  void take(Optimum optimum) {
+    best_ = std::move(optimum);
+    best_by_speed_ = best_.report.objective.kind == ObjectiveKind::exit_speed;
+  }
+
+  /// A straight line that keeps every limit, and reaches the speed.
+  struct Straight {
+    CenterlinePtr line;
+    referee::Judgement judgement;
+    double reached = 0.0;  ///< of what is bounded
+  };
+
+  /// A start that needs no search: of the straight lines that the ends leave, the one with the least of what is bounded, and
+  /// of several the fastest.
+  [[nodiscard]] std::optional<Straight> gentlest_straight() const {
+    std::optional<Straight> best;
+    for (const Endpoints& ends : straight_ends()) {
+      const CenterlinePtr line = straight_track(ends);
+      if (asked_.limits.lead_in + asked_.limits.lead_out > line->length()) continue;
+      referee::Judgement judgement = referee::judge_track(asked_, line, referee::kRefereeSamples);
+      if (!judgement.arrived || judgement.worst > options_.limit_tolerance) continue;
+      const double reached = reached_by(line);
+      const bool better = !best || reached < best->reached ||
+                          (reached == best->reached && judgement.travel_time < best->judgement.travel_time);
+      if (better) best = Straight{line, std::move(judgement), reached};
+    }
+    return best;
+  }
+
+  /// As a search finds tracks, so that whatever goes on with one can go on with it.
+  [[nodiscard]] static CenterlinePtr straight_track(const Endpoints& ends) {
+    const StraightLine line(ends);
+    return std::make_shared<ClothoidSpline>(Angle::from_radians(line.slope_angle(0.0)),
+                                            std::vector<ClothoidSegment>{{line.length(), 0.0, 0.0}});
+  }
+
+  /// Ends of straight lines: the one between two points, or a fan of them.
+  [[nodiscard]] std::vector<Endpoints> straight_ends() const {
+    constexpr int kSteps = 64;            // taste
+    constexpr double kNotUpright = 1e-3;  // taste [rad]
+    const Endpoints& given = asked_.endpoints;
+    if (asked_.finish.kind == FinishKind::point) return {given};
+    const bool level = asked_.finish.kind == FinishKind::level;
+    double flattest = level ? kNotUpright : kNotUpright - kRightAngle;
+    double steepest = kRightAngle - kNotUpright;
+    const Limits& limits = asked_.limits;
+    for (const Range& range : {limits.slope_angle, limits.entry_slope_angle, limits.exit_slope_angle}) {
+      if (range.lowest) flattest = std::max(flattest, *range.lowest);
+      if (range.highest) steepest = std::min(steepest, *range.highest);
+    }
+    if (flattest > steepest || (level && !(given.drop > 0.0))) return {};
+    std::vector<Endpoints> all;
+    for (int i = 0; i <= kSteps; ++i) {
+      const double slope = i == kSteps ? steepest : flattest + (steepest - flattest) * i / kSteps;
+      const double run = std::fabs(given.run);
+      all.push_back(level ? Endpoints{given.drop / math::tan(slope), given.drop}
+                          : Endpoints{run, run * math::tan(slope)});
+    }
+    return all;
+  }
+
+  void take(const Straight& straight) {
+    Optimum optimum;
+    optimum.centerline = straight.line;
+    OptimizeReport& report = optimum.report;
+    report.status = OptimizeStatus::optimal;
+    report.objective = asked_.objective;
+    report.travel_time = straight.judgement.travel_time;
+    report.exit_speed = straight.judgement.exit_speed;
+    report.unlimited_travel_time = unlimited_travel_time(asked_);
+    report.finer_mesh_wins = 0.0;
+    take(std::move(optimum));
+  }
+
+  /// The straight line, where nothing has less.
+  Optimum told(const Straight& straight) {
+    take(straight);
+    OptimizeReport& report = best_.report;
+    report.checks = check_limits(asked_, best_.centerline);
+    report.message = name_.id == LimitId::highest_normal_load
+                         ? "every limit holds, and no track carries less than the straight line"
+                         : "every limit holds, and the straight line has no curvature that could change";
+    return outlay_.told(std::move(best_), asked_.objective);
+  }
+
+  /// The first track, by search: the loosest bound.
+  /// @return the end of the search, where there is none
+  [[nodiscard]] std::optional<Optimum> begin() {
+    Optimum loose = within(asked_.limits.*member_);
+    const bool slow = loose.centerline && loose.report.exit_speed < wanted_ * (1.0 - kSpeedAccuracy);
+    if (!loose.centerline || slow) {
+      // A search that asks for the speed says why it is out of reach, or finds that it is not.
+      Optimum other = asking_for_speed(asked_.limits.*member_);
+      if (!other.centerline) return slow ? std::move(other) : std::move(loose);
+      loose = std::move(other);
+    }
+    take(std::move(loose));
+    return std::nullopt;
+  }
+
+  /// Looks at a bound, by a second way where the first comes to no end.
+  Verdict look(double bound) {
+    Optimum fastest = within(bound);
+    would_do_ = 0.0;
+    excess_ = fastest.centerline ? fastest.report.exit_speed - wanted_ : -wanted_;
+    price_ = fastest.centerline ? price_in(fastest.report) : 0.0;
+    const bool there = fastest.centerline != nullptr;
+    const bool optimal = fastest.report.status == OptimizeStatus::optimal;
+    settled_ = there && optimal && std::fabs(excess_) <= kSpeedAccuracy * wanted_;
+    if (there && (settled_ || excess_ >= 0.0)) {
+      take(std::move(fastest));
+      return Verdict::does;
+    }
+    if (there && optimal) return Verdict::too_slow;
+    if (fastest.report.status == OptimizeStatus::infeasible) {
+      // It may have found what would do.
+      for (const Relaxation& other : fastest.report.conflict.relaxations) {
+        if (other.limit == name_) would_do_ = other.needed;
+      }
+      return Verdict::kept_by_none;
+    }
+    if (outlay_.ends()) return Verdict::untold;
+    Optimum other = asking_for_speed(bound);
+    if (!other.centerline)
+      return other.report.status == OptimizeStatus::infeasible ? Verdict::too_slow : Verdict::untold;
+    price_ = 0.0;
+    take(std::move(other));
+    return Verdict::does;
+  }
+
+  /// Narrows the bracket down until a bound gives just the speed wanted, or nothing is left of it.
+  void close(double bound) {
+    settled_ = false;
+    int untold = 0;
+    while (searches_ < kMostSearches && untold < kMostUntold && !outlay_.ends()) {
+      if (bracket_.is_closed()) {
+        settled_ = bracket_.untold.empty();
+        return;
+      }
+      const Verdict verdict = look(bound);
+      if (verdict == Verdict::untold) ++untold;
+      bracket_.learn(verdict == Verdict::does ? std::min(bound, reached_by(best_.centerline)) : bound,
+                     verdict);
+      if (settled_) return;
+      const double floor = bracket_.floor();
+      const double newton = price_ > 0.0 ? newton_step(bound, excess_, price_) : would_do_;
+      // From far above the tangent leads to bounds that nothing keeps, and such searches take the longest.
+      constexpr double kBoldest = 0.25;  // taste
+      const double next = std::max(newton, kBoldest * bracket_.loose);
+      bound = next > floor && next < bracket_.loose && newton > 0.0 ? next : between(floor, bracket_.loose);
+    }
+  }
+
+  /// What no track goes below, shown without a search. 0 where nothing is known.
+  [[nodiscard]] double least_known() const {
+    return name_.id == LimitId::highest_normal_load ? least_load_anywhere(asked_) : 0.0;
+  }
+
+  /// Whether, against expectation, a bound a little below the least does: then goes on from there.
+  bool does_below() {
+    const double bound = bracket_.loose * (1.0 - kNeighbour);
+    if (!(bound > 0.0)) return false;  // there is none
+    if (bound <= bracket_.tight && bracket_.why == Verdict::kept_by_none) return false;
+    const double excess = excess_;
+    const double price = price_;
+    const Verdict verdict = look(bound);
+    if (verdict != Verdict::does) {
+      settled_ = true;
+      excess_ = excess;
+      price_ = price;
+      return false;
+    }
+    bracket_ = {std::min(bound, reached_by(best_.centerline)), 0.0, Verdict::too_slow, {}};
+    if (!settled_)
+      close(price_ > 0.0 ? std::min(newton_step(bound, excess_, price_), 0.99 * bound) : 0.9 * bound);
+    return true;
+  }
+
+  /// The most of what is bounded, as the referee finds it.
+  [[nodiscard]] double reached_by(const CenterlinePtr& track) const {
+    // A jump of the curvature: any bound is tighter.
+    return most_reached(tried_, member_, name_, track).value_or(of_a_short_bend(track));
+  }
+  /// A rate of curvature that is as good as a jump: it turns the track within a hundredth of its length. The bend that
+  /// the mesh puts in a jump's place may be sharper by orders of magnitude. A load knows no such bound.
+  [[nodiscard]] double of_a_short_bend(const CenterlinePtr& track) const {
+    if (name_.id == LimitId::highest_normal_load) return std::numeric_limits<double>::infinity();
+    const double length = track->length();
+    return 1e4 / (length * length);
+  }
+  /// Newton's step to the bound that gives the speed wanted, not in the bound but in the length of the bends that it
+  /// allows, which goes with 1/load or 1/sqrt(rate): the speed that a bend costs is nearly linear in its length.
+  [[nodiscard]] double newton_step(double bound, double excess, double price) const {
+    const double power = name_.id == LimitId::highest_normal_load ? 1.0 : 0.5;
+    const double longer = 1.0 + power * excess / (price * bound);
+    return longer > 0.0 ? bound * math::pow(longer, -1.0 / power) : std::numeric_limits<double>::infinity();
+  }
+  /// By their ratio, since they may be orders of magnitude apart.
+  [[nodiscard]] static double between(double low, double high) {
+    return low > 0.0 ? std::sqrt(low * high) : 0.5 * high;
+  }
+  [[nodiscard]] double price_in(const OptimizeReport& report) const {
+    for (const ActiveLimit& active : report.active) {
+      if (active.limit == name_) return active.price;
+    }
+    return 0.0;
+  }
+
+  /// In units of the bound, which the speed wanted has a price in, too.
+  Optimum priced() {
+    if (!best_by_speed_ && bracket_.loose > 0.0 && !outlay_.ends()) {
+      Optimum again = within(bracket_.loose);
+      if (again.centerline && again.report.exit_speed >= wanted_ * (1.0 - kSpeedAccuracy))
+        take(std::move(again));
+    }
+    OptimizeReport& report = best_.report;
+    // Where more than the speed wanted is reached it is not the speed that keeps the bound from being tighter.
+    const bool reached = report.exit_speed <= wanted_ * (1.0 + kSpeedReached);
+    const double own = best_by_speed_ && reached ? price_in(report) : 0.0;
+    std::erase_if(report.active, [&](const ActiveLimit& active) { return active.limit == name_; });
+    if (own > 0.0) {
+      for (ActiveLimit& active : report.active) {
+        active.price /= own;
+        if (active.tightening_price) *active.tightening_price /= own;
+      }
+      const double end = best_.centerline->length();
+      report.active.push_back({{LimitId::exit_speed, Bound::lowest}, wanted_, {{end, end}}, 1.0 / own});
+      std::sort(report.active.begin(), report.active.end(),
+                [](const ActiveLimit& a, const ActiveLimit& b) { return a.limit.key() < b.limit.key(); });
+    } else {
+      report.active.clear();
+    }
+    report.checks = check_limits(asked_, best_.centerline);
+    if (!settled_) {
+      report.status = OptimizeStatus::feasible_not_converged;
+      report.message = "every limit holds, but the tightest bound was not found: " + open_text();
+    } else if (report.status == OptimizeStatus::optimal) {
+      report.message = bracket_.why == Verdict::kept_by_none
+                           ? "every limit holds, and no track keeps a tighter bound"
+                           : "every limit holds, and a tighter bound keeps the exit speed from being reached";
+    }
+    return outlay_.told(std::move(best_), asked_.objective);
+  }
+
+  /// What is left open: "of bounds between 14.2 m/s^2, which is too tight, and 14.9 m/s^2 searches did not tell"
+  [[nodiscard]] std::string open_text() const {
+    const Dimension dimension = name_.dimension();
+    const std::string tight = bracket_.tight > 0.0
+                                  ? quantity_text(bracket_.tight, dimension) + ", which is too tight,"
+                                  : std::string("none");
+    return "of those between " + tight + " and " + quantity_text(bracket_.loose, dimension) +
+           (bracket_.untold.empty() ? " not all were tried" : " the searches came to no end");
+  }
+
+  const Problem& asked_;
+  const OptimizeOptions& options_;
+  const std::stop_token& stop_;
+  const Progress& progress_;
+  Outlay outlay_;
+  Problem tried_;
+  double wanted_;
+  std::optional<double> Limits::*member_ = nullptr;
+  LimitName name_;
+  static constexpr int kMostNeighbours = 4;  // budget
+  static constexpr int kMostUntold = 6;      // budget: they take the longest
+  Bracket bracket_;
+  Optimum best_;                ///< at `loose`
+  bool best_by_speed_ = false;  ///< the greatest speed was what it was searched for: it has prices
+  bool settled_ = false;        ///< nothing tighter does
+  double excess_ = 0.0;         ///< of the exit speed, at the bound looked at last
+  double price_ = 0.0;          ///< of that bound, in speed
+  double would_do_ = 0.0;       ///< a looser one that was found instead; 0 where none was
+  int searches_ = 0;
+};
+
+}  // namespace
+
+Optimum least_bound(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
+                    const Progress& progress) {
+  return LeastBound(problem, options, stop, progress).found();
+}
+
+}  // namespace glissade::optimizer

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "glissade/parts/arc_spline.hpp"
+#include "glissade/parts/plates.hpp"
+
+#include "parts/curves/offset_line.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace glissade::parts {
+
+/// A bent floor: flats that touch the track from below in a hollow, from above on a crest, and meet at bends.
+struct Facets {
+  std::vector<double> touches;  ///< arc lengths of the track where flats touch it, with both ends [m]
+  std::vector<Vec2> corners;    ///< where flats meet, with both ends, in the frame (x, height)
+  std::vector<double> kinks;    ///< at the corners between, positive where the floor curls up [rad]
+  std::vector<double> misses;   ///< distance of those corners from the track [m]
+
+  [[nodiscard]] std::size_t bends() const { return kinks.size(); }
+};
+
+/// Flats over a stretch of track, tangent to it at both ends.
+/// @param largest_kink  [rad]; > 0. Larger where flats would be shorter than `least_flat`
+/// @param least_flat    that a press can hold [m]; >= 0
+/// @param least_end     of the flats at both ends, as far as there is more than one bend [m]
+[[nodiscard]] Facets facets_by_angle(const ArcSpline& track, const Span& span, double largest_kink,
+                                     double least_flat, double least_end = 0.0);
+/// @param longest  flats between two bends, about [m]; > 0
+[[nodiscard]] Facets facets_by_length(const ArcSpline& track, const Span& span, double longest,
+                                      double least_flat, double least_end = 0.0);
+/// @param tolerance  greatest distance of a corner from the track [m]; > 0
+[[nodiscard]] Facets facets_by_chord(const ArcSpline& track, const Span& span, double tolerance,
+                                     double least_flat, double least_end = 0.0);
+
+/// The finished floor's upper face: flats and bends round the punch.
+/// @param inner_radius  of every bend; on a crest the upper face has thickness more
+/// @return as an ArcSpline from its own origin
+/// @throws InputError if a flat is shorter than its bends take: names the flat
+[[nodiscard]] ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness);
+
+/// A body down the flats one by one; at each corner that curls up the speed falls to cos phi - mu sin phi of it, without
+/// a rebound, at one that falls away to cos phi. Where the load on an arc comes to nothing it flies on and comes down as at a
+/// corner.
+struct FacetRide {
+  bool arrives = false;
+  double time = 0.0;
+  double speed = 0.0;
+  double highest_load = 0.0;
+  std::size_t hops = 0;
+  double highest_hop = 0.0;  ///< above the floor [m]
+  std::string stopped;       ///< of one that does not arrive: what ends it, and where
+};
+/// @param joint_step  by which the floor drops from unit to unit; landing costs mu sqrt(2 g d) of the speed [m]
+[[nodiscard]] FacetRide ride_facets(const std::vector<Facets>& units, const Body& body, double gravity,
+                                    double joint_step);
+
+/// The same down the arcs of rolled floors.
+[[nodiscard]] FacetRide ride_lines(const std::vector<std::shared_ptr<const ArcSpline>>& units,
+                                   const Body& body, double gravity, double joint_step);
+
+}  // namespace glissade::parts
