@@ -11,9 +11,9 @@ namespace glissade::optimizer {
 namespace {
 
 // Rows this close to their bound take part in a program.
-constexpr double kBand = 0.25;  // taste
+constexpr double kRowBand = 0.25;  // taste
 // Curvature of the model along t: it bounds t, and is without effect at the end.
-constexpr double kOwnCurvature = 1e-6;  // taste
+constexpr double kSlackCurvature = 1e-6;  // taste
 // The price on the violation lies this much above the sum of the multipliers, ...
 constexpr double kAbove = 2.0;  // theory: above 1
 // ... at first here, and never higher than that. Larger sums are of rows that all but depend on each other.
@@ -22,14 +22,14 @@ constexpr double kHighestPrice = 1e3;  // taste
 // A violation below this is none.
 constexpr double kKept = 1e-12;  // rounding
 // Less is promised only at the end, ...
-constexpr double kSettled = 1e-13;  // rounding
+constexpr double kNothingPromised = 1e-13;  // rounding
 // ... or not worth the steps, where none of Newton's own does.
 constexpr double kNotWorth = 1e-9;  // accuracy: below that of a time
 // The first price on changes of shape, as a share of that on the violation, and how fast it rises at first.
 constexpr double kSoftest = 1e-2;  // taste
 constexpr double kHarder = 4.0;    // taste
 // A violation above this is one.
-constexpr double kBroken = 1e-4;  // taste
+constexpr double kViolated = 1e-4;  // taste
 
 class ElasticDescent {
  public:
@@ -80,7 +80,7 @@ class ElasticDescent {
   };
   [[nodiscard]] NearRows near_rows(const State& state) const {
     NearRows near;
-    near.rows = rows_.candidates(state, kBand, &near.values);
+    near.rows = rows_.candidates(state, kRowBand, &near.values);
     return near;
   }
   [[nodiscard]] double violation_of(const State& state, const NearRows& near) const {
@@ -101,10 +101,10 @@ class ElasticDescent {
   /// Nothing is promised, or no step at all lowers the violation.
   [[nodiscard]] bool is_stuck(double promised) const {
     constexpr double kHardly = 0.95;  // taste
-    const double least = stiffness_ > 0.0 ? kNotWorth : kSettled;
+    const double least = stiffness_ > 0.0 ? kNotWorth : kNothingPromised;
     if (!(promised > least * (1.0 + std::fabs(rows_.objective(state_))))) return true;
     const bool lowers = step_.t < kHardly * violation_ || promised > (1.0 - kHardly) * price_ * violation_;
-    return is_elastic_ && stiffness_ <= kSoftest * price_ && violation_ > kBroken && !lowers;
+    return is_elastic_ && stiffness_ <= kSoftest * price_ && violation_ > kViolated && !lowers;
   }
 
   void linearise() {
@@ -208,7 +208,7 @@ class ElasticDescent {
     if (!step.is_solved) return step;
     step.t = solution.step[n_] > kKept ? solution.step[n_] : 0.0;
     step.z.assign(solution.step.begin(), solution.step.end() - 1);
-    const double own = solution.step[n_] * solution.step[n_] * kOwnCurvature;
+    const double own = solution.step[n_] * solution.step[n_] * kSlackCurvature;
     step.length = std::sqrt(std::max(0.0, solution.length * solution.length - own));
     step.multipliers.equality.assign(equalities, 0.0);
     for (const std::size_t i : solution.active) {
@@ -226,7 +226,7 @@ class ElasticDescent {
   void begin_exactly() { exact_.emplace(program_, metric_, likely()); }
   void begin_elastically() {
     elastic_program_ = elastic();
-    elastic_metric_ = metric_.with_one_more(kOwnCurvature);
+    elastic_metric_ = metric_.with_one_more(kSlackCurvature);
     begin_giving();
   }
   void begin_giving() {

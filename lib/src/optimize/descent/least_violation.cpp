@@ -10,7 +10,7 @@ namespace glissade::optimizer {
 namespace {
 
 // Rows this much further from their bound than the worst one take part in a step.
-constexpr double kBand = 0.3;  // taste
+constexpr double kBehindWorst = 0.3;  // taste
 // Curvature of the model along t and s: it bounds the first guess of a step, and is without effect at the end.
 constexpr double kOwnCurvature = 0.1;  // taste: without effect at the end
 // A violation below this is none.
@@ -159,7 +159,7 @@ class Search {
   };
   [[nodiscard]] Near near(const State& state) const {
     Near near;
-    near.rows = rows_->candidates(state, kBand, &near.values);
+    near.rows = rows_->candidates(state, kBehindWorst, &near.values);
     return near;
   }
 

@@ -338,15 +338,15 @@ std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found
 namespace {
 
 /// Prices to either side on one mesh, and whether they are those of the problem.
-struct Kink {
+struct PriceKink {
   OneSidedPrice price;
   bool lasts = true;  ///< another mesh has it, too, and as wide
 };
 
 /// Where a mesh lets two rows just touch there is a kink on it alone, or one that narrows with its pieces.
 /// @param at  the optimum on a mesh of halved pieces, where that has not the same kinks
-std::vector<Kink> kinks_of(const ScaledProblem& problem, Priced& at, const OptimizeOptions& options,
-                           SearchControl& control) {
+std::vector<PriceKink> kinks_of(const ScaledProblem& problem, Priced& at, const OptimizeOptions& options,
+                                SearchControl& control) {
   // A kink of the mesh is half as wide on one twice as fine, one of the problem as wide.
   constexpr double kAsWide = 0.75;  // theory: between the two
   const std::vector<OneSidedPrice> prices = one_sided_prices(problem, at.found);
@@ -358,7 +358,7 @@ std::vector<Kink> kinks_of(const ScaledProblem& problem, Priced& at, const Optim
   const Found& other = at.before ? *at.before : finer ? *finer : at.found;
   const std::vector<OneSidedPrice> others = one_sided_prices(problem, other);
   const auto width = [](const OneSidedPrice& price) { return price.tightening - price.relaxing; };
-  std::vector<Kink> kinks;
+  std::vector<PriceKink> kinks;
   bool all_last = true;
   for (const OneSidedPrice& price : prices) {
     const auto there = std::find_if(others.begin(), others.end(),
@@ -381,7 +381,7 @@ std::vector<Kink> kinks_of(const ScaledProblem& problem, Priced& at, const Optim
 }
 
 /// Sets the price of one that binds: two, or what lies between them where they are not the problem's.
-void set_price(const Kink& kink, double unit, ActiveLimit& active) {
+void set_price(const PriceKink& kink, double unit, ActiveLimit& active) {
   const OneSidedPrice& price = kink.price;
   active.price = price.relaxing * unit;
   active.price_error = 0.0;
@@ -400,9 +400,9 @@ PricedLimits priced_limits(const ScaledProblem& problem, const Found& found, con
   constexpr double kPays = 1e-6;  // accuracy: that of a time
   PricedLimits result;
   Priced at = priced(problem, found, ahead, options, control, result.better);
-  const std::vector<Kink> kinks = kinks_of(problem, at, options, control);
+  const std::vector<PriceKink> kinks = kinks_of(problem, at, options, control);
   std::vector<ActiveLimit> limits = binding_limits(problem, at.found, at.multipliers, at.error, 1.0);
-  for (const Kink& kink : kinks) {
+  for (const PriceKink& kink : kinks) {
     for (ActiveLimit& active : limits) {
       if (active.limit == kink.price.limit) set_price(kink, objective_unit(problem), active);
     }

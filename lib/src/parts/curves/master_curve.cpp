@@ -32,7 +32,7 @@ constexpr double kExpectedShare = 1.16;
 constexpr double kExpectedMore = 2.0;
 constexpr double kFlat = 2.0;  // tolerances by which an arc rises that a line within them could stand for
 constexpr double kNarrower = 2e-3;  // of the band, where a fit has left it; twice that each time
-constexpr int kMostRounds = 6;
+constexpr int kMostPasses = 6;
 constexpr double kSameArc = 1e-10;   // relative difference of curvatures within one arc of the track
 constexpr double kSameLine = 1e-12;  // the same of straight lines, times the length of the track
 
@@ -303,7 +303,7 @@ MasterCurve fitted(Fit& fit, const std::vector<Kept>& kept) {
   master.lower_bound = lower_bound_of(fit, kept, band);
   // What lies between two samples, and on the wrong arc beside a joint, is seen by the measurement alone.
   Band aim = band;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostPasses; ++round) {
     master.spline = std::make_shared<ArcSpline>(assembled(fit, kept, aim));
     const Band found = measured(fit.track, *master.spline);
     master.max_deviation = std::max(found.left, found.right);

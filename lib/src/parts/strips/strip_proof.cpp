@@ -20,7 +20,7 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kSameEdge = 1e-9;  // lengths of edges that meet [m]
+constexpr double kMeetingEdges = 1e-9;  // lengths of edges that meet [m]
 
 /// Area and first moment of the whole section by its outlines.
 Vec2 area_and_moment(const PlateSection& section) {
@@ -274,7 +274,7 @@ PartsProof prove_strips(const StripJob& job, const std::optional<BentStrips>& be
                              rounded_text(wanted.volume, 12) + " m^3",
                          "", ""});
   }
-  if (!(proof.edge_mismatch <= kSameEdge)) {
+  if (!(proof.edge_mismatch <= kMeetingEdges)) {
     throw InternalError({"", "edges differ by " + length_text(proof.edge_mismatch, 3), "", ""});
   }
   proof.pairs = require_no_clash(workshop);
