@@ -462,4 +462,52 @@ TEST_CASE("a drop that is given is no less for being made the least") {
   }
 }
 
+TEST_CASE(
+    "a straight ramp that keeps every limit is never higher than the lowest track, however long its ends") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int count = testing::thorough() ? 24 : 6;
+  for (int i = 0; i < count; ++i) {
+    const double mu = random.between(0.02, 0.35);
+    const double speed = random.between(4.0, 25.0);
+    const double fall = speed * speed / (2.0 * kGravity);
+    Problem problem = task(mu, 0.0, speed, ObjectiveKind::least_drop);
+    // Straight ends longer than the steepest ramp, and shorter ones.
+    problem.limits.lead_out = random.between(0.1, 1.35) * fall;
+    problem.limits.slope_angle.highest = random.between(62.0, 86.0) * kDegree;
+    CAPTURE(mu, speed, problem.limits.lead_out, problem.limits.slope_angle.highest.value());
+    const double steepest = *problem.limits.slope_angle.highest;
+    const double pull = std::sin(steepest) - mu * std::cos(steepest);
+    // 2 g S (sin(zeta) - mu cos(zeta)) = u^2, at the steepest slope or at the length of the straight end
+    const double length = std::max(fall / pull, problem.limits.lead_out);
+    const double delta = std::atan(mu);
+    const double slope = length > fall / pull ? delta + std::asin(std::cos(delta) * fall / length) : steepest;
+    const double by_hand = length * std::sin(slope);
+    const Optimum lowest = solved(problem);
+    CHECK(drop_of(lowest) < by_hand * (1.0 + 2e-7));
+    CHECK(drop_of(lowest) > fall);
+    // Relaxed it is no higher.
+    problem.limits.slope_angle.highest = std::min(steepest + 3.0 * kDegree, 89.0 * kDegree);
+    CHECK(drop_of(solved(problem)) < drop_of(lowest) * (1.0 + 2e-7));
+  }
+}
+
+TEST_CASE("prices of a ramp are what its drop changes by") {
+  Problem problem = task(0.05, 0.0, 10.0, ObjectiveKind::least_drop);
+  problem.limits.lead_out = 6.0;
+  problem.limits.slope_angle.highest = 65.0 * kDegree;
+  const Optimum lowest = solved(problem);
+  CHECK(lowest.centerline->kind() == "straight");
+  const auto drop_with = [&](double lead_out, double speed) {
+    Problem changed = problem;
+    changed.limits.lead_out = lead_out;
+    changed.limits.exit_speed.lowest = speed;
+    return drop_of(solved(changed));
+  };
+  const double by_lead = (drop_with(6.01, 10.0) - drop_with(5.99, 10.0)) / 0.02;
+  const double by_speed = (drop_with(6.0, 10.01) - drop_with(6.0, 9.99)) / 0.02;
+  CHECK(std::fabs(price_of(lowest, LimitId::lead_out) / by_lead - 1.0) < 1e-3);
+  CHECK(std::fabs(price_of(lowest, LimitId::exit_speed) / by_speed - 1.0) < 1e-3);
+}
+
 }  // namespace free_ends_test

@@ -19,6 +19,7 @@
 #include "optimize/problem/passages.hpp"
 #include "optimize/problem/scaled_problem.hpp"
 #include "optimize/search/patience.hpp"
+#include "optimize/search/ramp.hpp"
 #include "optimize/search/searcher.hpp"
 #include "optimize/search/shifted_bends.hpp"
 #include "optimize/search/smoother_ground.hpp"
@@ -472,6 +473,26 @@ void take_unlimited(const Problem& problem, const OptimizeOptions& options, Opti
   report.finer_mesh_wins = 0.0;
 }
 
+/// The ramp instead, where it keeps every limit and the search stayed behind it: the search needs something to bend between two
+/// straight ends, and tells nearly upright tracks apart by next to nothing.
+void take_ramp(const Problem& problem, const OptimizeOptions& options, Optimum& optimum) {
+  constexpr double kBehind = 1e-7;  // accuracy: that of a limit
+  const ObjectiveKind kind = problem.objective.kind;
+  if (kind != ObjectiveKind::least_drop && kind != ObjectiveKind::least_length) return;
+  const std::optional<Ramp> ramp = steepest_ramp(problem);
+  if (!ramp || !ramp->judgement.arrived || ramp->judgement.worst > options.limit_tolerance) return;
+  const double known = measure_of(Ramp{optimum.centerline, {}}, kind);
+  if (!(measure_of(*ramp, kind) < (1.0 - kBehind) * known)) return;
+  OptimizeReport& report = optimum.report;
+  optimum.centerline = ramp->line;
+  report.active = active_limits(*ramp, problem);
+  report.travel_time = ramp->judgement.travel_time;
+  report.exit_speed = ramp->judgement.exit_speed;
+  report.checks = ramp->judgement.checks;
+  report.first_order_residual = 0.0;
+  report.finer_mesh_wins = 0.0;
+}
+
 /// Tells why there is no track.
 void tell_none(Conflict conflict, bool certain, bool stopped, OptimizeReport& report) {
   report.status = certain ? OptimizeStatus::infeasible : OptimizeStatus::no_track_found;
@@ -539,6 +560,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   tell_track(course, options, control, report);
   optimum.centerline = course.best().track;
   take_unlimited(problem, options, optimum);
+  take_ramp(problem, options, optimum);
   const bool converged = report.first_order_residual <= options.tolerance && !course.stopped();
   report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
   report.message = ended_text(problem.objective, report.status, course.stopped(), patience.out_of_time());
