@@ -62,6 +62,15 @@ TEST_CASE("what is wrong with a profile is told with line and column") {
   CHECK_THAT(refusal("x,z\r0,1\r1,0\r"),
              Contains("wall.csv:1:4: the line ends with a carriage return (CR) alone"));
   CHECK_THAT(refusal("x,z\n0,\u22121\n"), Contains("a minus sign (U+2212)") && Contains("Try: -1"));
+  // A decimal comma in a file that commas part: two numbers of each, and others in the place of the second column.
+  CHECK_THAT(refusal("x,z\n2,0,3,5\n"), Contains("wall.csv:2: the line has 4 cells, more than the 2 names") &&
+                                            Contains("a decimal comma makes two cells of one number") &&
+                                            Contains("semicolons"));
+  CHECK_THAT(refusal("x;z\n2;3;5\n"),
+             Contains("3 cells, more than the 2 names") && !Contains("decimal comma"));
+  CHECK_THAT(refusal("x,z,z\n0,1,2\n"), Contains("wall.csv:1: two columns are called \"z\""));
+  CHECK(read("x,z,note,note\n0,2,a,b\n") == std::vector<Vec2>{{0.0, -2.0}});
+  CHECK(read("x,z\n0,2,,\n") == std::vector<Vec2>{{0.0, -2.0}});
   const TempDir place;
   CHECK_THROWS_AS(read_profile_csv(place / "nowhere.csv"), FileError);
 }

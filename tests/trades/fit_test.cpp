@@ -172,9 +172,33 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
              Contains("there is no column \"speed_m_per_s\""));
   CHECK_THAT(problem_of("gate,speed_km_h\n1,85\n"), Contains("there is no column \"design\""));
   CHECK_THAT(problem_of("gate,speed_km_h\n1,fast\n", "hills/garmisch_hs142.yaml"), Contains("is no number"));
+  const std::string hill = "hills/garmisch_hs142.yaml";
+  for (const char* const nothing :
+       {"gate,speed_km_h\n", "gate,speed_km_h", "gate,speed_km_h\n\n# none yet\n"})
+    CHECK_THAT(problem_of(nothing, hill), Contains("speeds.csv: there are no speeds in the file"));
+  CHECK_THAT(problem_of("design,gate,speed_km_h\n"), Contains("there are no speeds in the file"));
+  CHECK_THAT(problem_of("gate,speed_km_h\n1,85,3\n", hill), Contains("speeds.csv:2: the line has 3 cells"));
+  for (const char* const count : {"0", "-1", "0.5", "1e308"}) {
+    CHECK_THAT(problem_of("gate,speed_km_h,count\n1,85," + std::string(count) + "\n", hill),
+               Contains("speeds.csv:2: count: " + std::string(count) + " is no number of rides"));
+  }
+  CHECK_THAT(problem_of("gate,speed_km_h\n1,1e308\n", hill), Contains("is too high"));
+  CHECK_THAT(problem_of("gate,speed_km_h,speed_m_per_s\n1,85,20\n", hill),
+             Contains("it has the columns speed_km_h and speed_m_per_s"));
+  CHECK_THAT(problem_of("gate,length_m,speed_km_h\n1,90,85\n", hill),
+             Contains("it has the columns gate and length_m"));
   testing::Random random = testing::seeded_random();
   CHECK_THROWS_WITH(fit_speeds({readings_of(skier(0.03, 0.001), 0.0, random).front()}, skier(0.0, 0.0)),
                     Contains("1 speeds do not tell 2 parameters"));
+}
+
+TEST_CASE("speeds of one gate at one place do not tell friction and drag apart") {
+  const TempDir place;
+  put_bytes(place / "speeds.csv", "gate,speed_km_h\n1,85\n1,85\n1,85\n1,85\n");
+  const SpeedSheet sheet = read_speeds(place / "speeds.csv", designs_path("hills/garmisch_hs142.yaml"));
+  CHECK_THROWS_WITH(fit_speeds(sheet.readings, sheet.body, {}, sheet.gravity),
+                    Contains("do not tell friction and drag apart") && Contains("several gates"));
+  CHECK_NOTHROW(fit_speeds(sheet.readings, sheet.body, {std::nullopt, 0.0013}, sheet.gravity));
 }
 
 }  // namespace fit_test

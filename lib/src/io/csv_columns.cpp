@@ -28,9 +28,10 @@ CsvColumns CsvColumns::read(const std::filesystem::path& file, std::string_view 
   columns.header_line_ = lines.number();
   for (const std::string_view name : csv_cells(*header, separator)) columns.names_.emplace_back(name);
   while (const auto line = lines.next()) {
-    const std::vector<std::string_view> cells = csv_cells(*line, separator);
-    columns.cells_.emplace_back(cells.begin(), cells.end());
     columns.lines_.push_back(lines.number());
+    const std::vector<std::string_view> cells =
+        csv_row(*line, separator, columns.names_.size(), columns.place(columns.lines_.size() - 1));
+    columns.cells_.emplace_back(cells.begin(), cells.end());
   }
   return columns;
 }
@@ -40,6 +41,7 @@ bool CsvColumns::has(std::string_view column) const {
 }
 
 std::size_t CsvColumns::index_of(std::string_view column) const {
+  require_named_once(names_, column, file_.string() + ":" + std::to_string(header_line_));
   return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), column) - names_.begin());
 }
 

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 
+#include "io/reading.hpp"
 #include "io/system_error.hpp"
 
 #include <algorithm>
@@ -56,6 +57,27 @@ std::vector<std::string_view> csv_cells(std::string_view line, char separator) {
     from = to + 1;
   }
   return cells;
+}
+
+std::vector<std::string_view> csv_row(std::string_view line, char separator, std::size_t columns,
+                                      const std::string& place) {
+  std::vector<std::string_view> cells = csv_cells(line, separator);
+  while (cells.size() > columns && cells.back().empty()) cells.pop_back();
+  if (cells.size() <= columns) return cells;
+  const bool by_comma = separator == ',';
+  throw FileError(
+      {place,
+       "the line has " + std::to_string(cells.size()) + " cells, more than the " + std::to_string(columns) +
+           " names of the first line",
+       by_comma ? "Commas part the cells here: a decimal comma makes two cells of one number." : "",
+       by_comma ? "decimal points, or semicolons between the cells" : "a name for each cell"});
+}
+
+void require_named_once(const std::vector<std::string>& names, std::string_view column,
+                        const std::string& place) {
+  if (std::count(names.begin(), names.end(), column) < 2) return;
+  throw FileError({place, "two columns are called " + in_quotes(column), "",
+                   "names that differ, of which the columns that count are named as they are asked for"});
 }
 
 char csv_separator(std::string_view header) {

@@ -17,6 +17,18 @@ namespace glissade::io {
 /// @return the cells of a line without the blanks and quotes around them; they point into it
 [[nodiscard]] std::vector<std::string_view> csv_cells(std::string_view line, char separator);
 
+/// The cells of a line below the one that names the columns. It may have fewer cells than there are names; empty ones at its
+/// end do not count.
+/// @param place  of the line, for messages: "file.csv:3"
+/// @throws FileError if it has more: of a number with a decimal comma a file parted by commas makes two
+[[nodiscard]] std::vector<std::string_view> csv_row(std::string_view line, char separator,
+                                                    std::size_t columns, const std::string& place);
+
+/// @param place  of the line that names the columns
+/// @throws FileError if the column's name stands there more than once
+void require_named_once(const std::vector<std::string>& names, std::string_view column,
+                        const std::string& place);
+
 /// @return what parts the cells of a file with this first line
 [[nodiscard]] char csv_separator(std::string_view header);
 

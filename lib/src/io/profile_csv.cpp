@@ -26,6 +26,7 @@ namespace {
 
 std::size_t column_named(const std::vector<std::string_view>& names, const std::string& name,
                          const std::string& place) {
+  require_named_once({names.begin(), names.end()}, name, place);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   std::string there;
@@ -90,7 +91,7 @@ class ProfileReader {
     Reach beside;
     while (const auto line = lines_.next()) {
       line_ = *line;
-      cells_ = csv_cells(line_, separator_);
+      cells_ = csv_row(line_, separator_, names_.size(), place());
       profile.points.push_back({coordinate(distance_), -coordinate(height_)});
       profile.lines.push_back(lines_.number());
       if (slope_) profile.slope_angles.push_back(Angle::from_degrees(number(*slope_, true).value).radians());

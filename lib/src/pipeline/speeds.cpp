@@ -7,6 +7,7 @@
 #include "pipeline/gates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -32,6 +33,8 @@ class Reader {
     if (!by_gate_) columns_.require("length_m", kExample);
     in_kilometres_ = columns_.has("speed_km_h");
     if (!in_kilometres_) columns_.require("speed_m_per_s", kExample);
+    require_either("gate", "length_m");
+    require_either("speed_km_h", "speed_m_per_s");
   }
 
   SpeedSheet read() {
@@ -45,12 +48,29 @@ class Reader {
       sheet.readings.push_back(reading_of(row, hill));
     }
     if (sheet.readings.empty()) {
-      throw FileError({columns_.place(0), "there are no speeds in the file", "", "a line a speed"});
+      throw FileError({columns_.file().string(), "there are no speeds in the file",
+                       "The first line names the columns, each other one is a speed.", "a line a speed"});
     }
     return sheet;
   }
 
  private:
+  /// Two columns that say the same could say it differently.
+  void require_either(const char* one, const char* other) const {
+    if (!columns_.has(one) || !columns_.has(other)) return;
+    throw FileError({columns_.file().string(), "it has the columns " + std::string(one) + " and " + other,
+                     "They say the same of a speed, and may differ.", "one of the two"});
+  }
+
+  [[nodiscard]] double count_of(std::size_t row) const {
+    if (!columns_.has("count")) return SpeedReading{}.count;
+    const double count = columns_.number(row, "count");
+    constexpr double kMost = 1e6;
+    if (count >= 1.0 && count <= kMost && count == std::floor(count)) return count;
+    throw InputError({columns_.place(row), "count: " + columns_.text(row, "count") + " is no number of rides",
+                      "A speed is the mean of 1 to 1000000 rides, a whole number of them.", "count: 12"});
+  }
+
   [[nodiscard]] const Hill& hill_of(std::size_t row) {
     const std::string name = columns_.text(row, "design");
     const std::filesystem::path path = name.empty() && design_ ? *design_ : folder_ / name;
@@ -103,7 +123,13 @@ class Reader {
     constexpr double kKilometresPerHour = 3.6;
     reading.speed = in_kilometres_ ? columns_.number(row, "speed_km_h") / kKilometresPerHour
                                    : columns_.number(row, "speed_m_per_s");
-    if (columns_.has("count")) reading.count = columns_.number(row, "count");
+    reading.count = count_of(row);
+    constexpr double kFastest = 1000.0;  // [m/s]
+    if (reading.speed > kFastest) {
+      throw InputError({columns_.place(row),
+                        "the speed, " + rounded_text(reading.speed, 4) + " m/s, is too high",
+                        "At most 1000 m/s.", "the unit of the column"});
+    }
     if (reading.speed > 0.0 && reading.place > reading.from_start && before_edge >= 0.0) return reading;
     throw InputError({columns_.place(row),
                       reading.speed > 0.0 ? "the speed is measured " + length_text(before_edge) +

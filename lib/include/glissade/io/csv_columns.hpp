@@ -15,10 +15,13 @@ namespace glissade {
 class CsvColumns {
  public:
   /// @param what  for messages: "the survey"
-  /// @throws FileError if the file cannot be read, is larger than kLargestCsvFile or empty
+  /// @throws FileError if the file cannot be read, is larger than kLargestCsvFile or empty, or if a line has more cells than
+  ///         the first one has names (empty ones at its end apart)
   [[nodiscard]] static CsvColumns read(const std::filesystem::path& file, std::string_view what);
 
+  [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
   [[nodiscard]] std::size_t rows() const noexcept { return cells_.size(); }
+  /// @throws FileError, as all that follow, if two columns have that name
   [[nodiscard]] bool has(std::string_view column) const;
   /// @return "survey.csv:14": where a row stands
   [[nodiscard]] std::string place(std::size_t row) const;

@@ -134,6 +134,13 @@ class Fit {
     if (!fits_drag_) return {-sums.f / sums.ff, 0.0};
     if (!fits_friction_) return {0.0, -sums.d / sums.dd};
     const double determinant = sums.ff * sums.dd - sums.fd * sums.fd;
+    // Of rides of one length to one place both take the same from every speed.
+    constexpr double kNothing = 1e-12;  // rounding
+    if (!(determinant > kNothing * sums.ff * sums.dd)) {
+      throw InputError({"", "these speeds do not tell friction and drag apart",
+                        "Rides of one length to one place lose the same to either.",
+                        "speeds from several gates; or one of the two held at a known value"});
+    }
     return {(-sums.f * sums.dd + sums.d * sums.fd) / determinant,
             (-sums.d * sums.ff + sums.f * sums.fd) / determinant};
   }
