@@ -192,8 +192,6 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
   std::vector<GuessCurve> more;
   // Of a track that need not be fast, but lead to speed, any detour may be the better one.
   if (got_lost || problem.speed_weight != 0.0) more.assign(curves.begin() + 1, curves.end());
-  // What is low or short is often straight, and bent starts lead to tracks that are bent for nothing.
-  if (std::optional<GuessCurve> straight = ramp(problem)) more.push_back(*std::move(straight));
   if (!is_travel_time(problem)) return more;
   if (more.empty() && first.objective > straight_time(problem)) more.assign(curves.begin() + 1, curves.end());
   const std::optional<FlyingStart> flying = flying_start(problem);

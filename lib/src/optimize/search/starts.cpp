@@ -116,46 +116,17 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
   return curves;
 }
 
-namespace {
-
-GuessCurve of_one_slope(double angle, double length) {
-  constexpr std::size_t kSteps = 64;  // taste
-  GuessCurve curve;
-  for (std::size_t i = 0; i <= kSteps; ++i) curve.sigma.push_back(static_cast<double>(i) / kSteps);
-  curve.zeta.assign(kSteps + 1, angle);
-  curve.length = length;
-  return curve;
-}
-
-}  // namespace
-
 std::optional<GuessCurve> straight_line(const ScaledProblem& problem) {
   const double length = math::hypot(problem.run, problem.drop);
   const double between = length - problem.lead_in - problem.lead_out;
   if (!(between > 2.0 * kShortestCore)) return std::nullopt;
-  return of_one_slope(math::atan2(problem.drop, problem.run), between);
-}
-
-std::optional<GuessCurve> ramp(const ScaledProblem& problem) {
-  constexpr double kNearlyUpright = 1.56;  // [rad]; taste
-  if (problem.finish != FinishKind::anywhere || problem.time_weight != 0.0 || problem.speed_weight != 0.0)
-    return std::nullopt;
-  double steepest = kNearlyUpright;
-  for (const LimitSpec& limit : problem.limits) {
-    const bool is_slope = limit.measure == Measure::slope_angle ||
-                          limit.measure == Measure::entry_slope_angle ||
-                          limit.measure == Measure::exit_slope_angle;
-    if (is_slope && limit.side >= 0) steepest = std::min(steepest, limit.bound);
-  }
-  // A chord is the drop of free fall: of its energy mu cos(zeta) is lost for each sin(zeta).
-  const double mu = mean_friction(problem, problem.rides.back());
-  const double pull = math::sin(steepest) - mu * math::cos(steepest);
-  const double ends = problem.lead_in + problem.lead_out + 2.0 * kShortestCore;
-  if (pull > 0.0 && pull * ends < 1.0) return of_one_slope(steepest, 1.0 / pull - ends + 2.0 * kShortestCore);
-  const double delta = math::atan(mu);
-  const double flatter = delta + math::asin(std::min(1.0, math::cos(delta) / ends));
-  if (!(flatter <= steepest)) return std::nullopt;
-  return of_one_slope(flatter, 2.0 * kShortestCore);
+  const double angle = math::atan2(problem.drop, problem.run);
+  constexpr std::size_t kSteps = 64;  // taste
+  GuessCurve curve;
+  for (std::size_t i = 0; i <= kSteps; ++i) curve.sigma.push_back(static_cast<double>(i) / kSteps);
+  curve.zeta.assign(kSteps + 1, angle);
+  curve.length = between;
+  return curve;
 }
 
 std::optional<FlyingStart> flying_start(const ScaledProblem& problem) {

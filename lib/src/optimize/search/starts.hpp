@@ -15,10 +15,6 @@ namespace glissade::optimizer {
 /// the core, without the straight ends.
 [[nodiscard]] std::vector<GuessCurve> starts(const ScaledProblem& problem);
 
-/// A straight track to anywhere, as steep as the limits on slope angles allow or, where straight ends ask for more length than
-/// the exit speed does, as flat as that allows. @return none where the finish is not free, or the objective counts time or speed
-[[nodiscard]] std::optional<GuessCurve> ramp(const ScaledProblem& problem);
-
 /// The fastest track of a body that enters with a speed, and its time: what limits lead away from.
 struct FlyingStart {
   GuessCurve curve;
