@@ -75,6 +75,16 @@ TEST_CASE("what is wrong with a profile is told with line and column") {
   CHECK_THROWS_AS(read_profile_csv(place / "nowhere.csv"), FileError);
 }
 
+TEST_CASE("separators at the end of the first line name no column, and those within quotes part no cells") {
+  CHECK_THAT(refusal("x,z,\n2,0,3,\n"), Contains("wall.csv:2: the line has 3 cells, more than the 2 names"));
+  const std::vector<Vec2> expected = {{0.0, -2.0}, {1.0, -1.0}};
+  CHECK(read("x,z,\n0,2,\n1,1\n") == expected);
+  CHECK(read(",x,z\n1,0,2\n2,1,1\n") == expected);
+  CHECK(read("x,z,note\n0,2,\"left, by tape\"\n1,1,5\"\n") == expected);
+  CHECK(read("note,x,z\n\"left, by tape\",0,2\n\"\",1,1\n") == expected);
+  CHECK_THAT(refusal("note,x,z\n\"left,0,2\n\"\",1,high\n"), Contains("is no number"));
+}
+
 TEST_CASE("a profile of more than 64 MiB is refused before it is read") {
   const TempDir place;
   put_bytes(place / "wall.csv", "x,z\n0,1\n");

@@ -125,6 +125,9 @@ TEST_CASE("a table that is none is refused with the line") {
     CHECK_THROWS_WITH(read_points(file), Contains(message));
   };
   refused("a,b\n1\n", "points.csv:2: the line has 1 cells instead of 2");
+  refused("a,b\n1,5,2\n",
+          "the line has 3 cells instead of 2\n      Every line has a cell for each name of the first one; a "
+          "decimal comma makes two of one number");
   refused("a,b\n1,\n", "points.csv:2: column b is empty");
   refused("a,a\n1,2\n", "points.csv:1: a is given twice");
   refused("a,b\n", "there are no points in it");

@@ -181,6 +181,17 @@ TEST_CASE("a survey in site coordinates is turned into the plane of a track that
   }
   put_bytes(folder / "bad.csv", "x,y\n1,2\n");
   CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement), Contains("there is no column \"z\""));
+  put_bytes(folder / "bad.csv", "x,z\n1,5,2,5\n");
+  CHECK_THROWS_WITH(
+      read_survey(folder / "bad.csv", track.placement),
+      Contains("bad.csv:2: the line has 4 cells, more than the 2 names") && Contains("decimal comma"));
+  put_bytes(folder / "bad.csv", "x,z,z\n1,5,2\n");
+  CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement),
+                    Contains("bad.csv:1: two columns are called \"z\""));
+  put_bytes(folder / "named.csv", "x,z,name\n1,5,\"A, left\"\n1,5,,\n");
+  const std::vector<SurveyPoint> named = read_survey(folder / "named.csv", track.placement);
+  CHECK(named[0].name == "A, left");
+  CHECK_THAT(named[1].name, Contains("named.csv:3"));
 }
 
 TEST_CASE("the shipped survey belongs to its hill") {

@@ -26,7 +26,7 @@ CsvColumns CsvColumns::read(const std::filesystem::path& file, std::string_view 
   CsvColumns columns;
   columns.file_ = file;
   columns.header_line_ = lines.number();
-  for (const std::string_view name : csv_cells(*header, separator)) columns.names_.emplace_back(name);
+  for (const std::string_view name : csv_names(*header, separator)) columns.names_.emplace_back(name);
   while (const auto line = lines.next()) {
     columns.lines_.push_back(lines.number());
     const std::vector<std::string_view> cells =

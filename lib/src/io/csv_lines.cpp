@@ -23,6 +23,17 @@ std::string_view trimmed(std::string_view text) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
+/// @return where the cell that begins at `from` ends: at a separator that no quotes enclose
+std::size_t end_of_cell(std::string_view line, std::size_t from, char separator) {
+  const std::size_t first = line.find_first_not_of(" \r", from);
+  std::size_t inside = from;
+  if (first != std::string_view::npos && line[first] == '"') {
+    const std::size_t closed = line.find('"', first + 1);
+    if (closed != std::string_view::npos) inside = closed;
+  }
+  return std::min(line.find(separator, inside), line.size());
+}
+
 }  // namespace
 
 std::string read_csv_text(const std::filesystem::path& file, std::string_view what, std::size_t largest) {
@@ -52,11 +63,17 @@ std::string read_csv_text(const std::filesystem::path& file, std::string_view wh
 std::vector<std::string_view> csv_cells(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   for (std::size_t from = 0; from <= line.size();) {
-    const std::size_t to = std::min(line.find(separator, from), line.size());
+    const std::size_t to = end_of_cell(line, from, separator);
     cells.push_back(trimmed(line.substr(from, to - from)));
     from = to + 1;
   }
   return cells;
+}
+
+std::vector<std::string_view> csv_names(std::string_view line, char separator) {
+  std::vector<std::string_view> names = csv_cells(line, separator);
+  while (names.size() > 1 && names.back().empty()) names.pop_back();
+  return names;
 }
 
 std::vector<std::string_view> csv_row(std::string_view line, char separator, std::size_t columns,
@@ -70,7 +87,8 @@ std::vector<std::string_view> csv_row(std::string_view line, char separator, std
        "the line has " + std::to_string(cells.size()) + " cells, more than the " + std::to_string(columns) +
            " names of the first line",
        by_comma ? "Commas part the cells here: a decimal comma makes two cells of one number." : "",
-       by_comma ? "decimal points, or semicolons between the cells" : "a name for each cell"});
+       by_comma ? "decimal points (2.5 for 2,5), with commas, semicolons or tabs between the cells"
+                : "a name for each cell"});
 }
 
 void require_named_once(const std::vector<std::string>& names, std::string_view column,

@@ -14,8 +14,12 @@ namespace glissade::io {
 [[nodiscard]] std::string read_csv_text(const std::filesystem::path& file, std::string_view what,
                                         std::size_t largest);
 
-/// @return the cells of a line without the blanks and quotes around them; they point into it
+/// @return the cells of a line without the blanks and quotes around them; they point into it. What begins with a
+///   quote goes on to the next one, whatever separators stand between
 [[nodiscard]] std::vector<std::string_view> csv_cells(std::string_view line, char separator);
+
+/// @return the names of the first line; empty ones at its end, as a separator there leaves them, name no column
+[[nodiscard]] std::vector<std::string_view> csv_names(std::string_view line, char separator);
 
 /// The cells of a line below the one that names the columns. It may have fewer cells than there are names; empty ones at its
 /// end do not count.

@@ -75,7 +75,7 @@ class ProfileReader {
     if (!header)
       throw FileError({file.string(), "the file is empty", "", "a line of names, then a line a point"});
     separator_ = csv_separator(*header);
-    names_ = csv_cells(*header, separator_);
+    names_ = csv_names(*header, separator_);
     distance_ = column_named(names_, options.distance_column, place());
     height_ = column_named(names_, options.height_column, place());
     slope_ = further_column(options.slope_angle_column);

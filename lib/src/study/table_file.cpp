@@ -97,10 +97,13 @@ TableFile read_table(const std::filesystem::path& file) {
       continue;
     }
     if (cells.size() != table.headings.size()) {
+      const bool more = cells.size() > table.headings.size();
       throw InputError({table.place(table.lines.size() - 1),
                         "the line has " + std::to_string(cells.size()) + " cells instead of " +
                             std::to_string(table.headings.size()),
-                        "Every line has a cell for each name of the first one.", ""});
+                        std::string("Every line has a cell for each name of the first one") +
+                            (more ? "; a decimal comma makes two of one number." : "."),
+                        more ? "decimal points; quotes around a value that has commas" : ""});
     }
     table.rows.push_back(std::move(cells));
   }
