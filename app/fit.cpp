@@ -15,6 +15,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -88,6 +90,24 @@ std::string fit_summary(const SpeedSheet& sheet, const SpeedFit& fit,
   return text + labelled("Correlation", correlation);
 }
 
+/// The issues of a fit, with the file where they name none.
+std::vector<Issue> of_file(std::vector<Issue> issues, const std::string& file) {
+  for (Issue& issue : issues) {
+    if (issue.where.empty()) issue.where = file;
+  }
+  return issues;
+}
+
+SpeedFit fitted_to(const SpeedSheet& sheet, const SpeedFitOptions& held, const std::string& file) {
+  try {
+    return fit_speeds(sheet.readings, sheet.body, held, sheet.gravity);
+  } catch (const InputError& error) {
+    throw InputError(of_file(error.issues(), file));
+  } catch (const ConvergenceError& error) {
+    throw ConvergenceError(of_file(error.issues(), file));
+  }
+}
+
 ExitCode fit(const FitArguments& options) {
   std::optional<std::filesystem::path> design;
   if (!options.design.empty()) design = options.design;
@@ -102,7 +122,7 @@ ExitCode fit(const FitArguments& options) {
     if (value && *value < 0.0)
       throw InputError({name, rounded_text(*value, 4) + " is negative", "", "0 or more"});
   }
-  const SpeedFit fitted = fit_speeds(sheet.readings, sheet.body, held, sheet.gravity);
+  const SpeedFit fitted = fitted_to(sheet, held, options.speeds);
   const std::vector<SpeedResidual> as_designed = speed_residuals(sheet.readings, sheet.body, sheet.gravity);
   print(options.json ? fit_json(sheet, fitted, as_designed) : fit_summary(sheet, fitted, as_designed, held));
   return ExitCode::done;

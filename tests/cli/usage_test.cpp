@@ -339,3 +339,12 @@ TEST_CASE("no file takes the place of the one that standard output goes to") {
     CHECK(place.names() == std::vector<std::string>{"o.txt"});
   }
 }
+
+TEST_CASE("fit: speeds that tell nothing apart are told with their file") {
+  const TempDir place;
+  put_bytes(place / "speeds.csv", "gate,speed_km_h\n1,85\n1,85\n1,85\n");
+  const std::string hill = shipped("hills/garmisch_hs142");
+  const Outcome outcome = glissade_run({"fit", (place / "speeds.csv").string(), hill});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("speeds.csv: these speeds do not tell friction and drag apart"));
+}
