@@ -30,7 +30,7 @@ CsvColumns CsvColumns::read(const std::filesystem::path& file, std::string_view 
   while (const auto line = lines.next()) {
     columns.lines_.push_back(lines.number());
     const std::vector<std::string_view> cells =
-        csv_row(*line, separator, columns.names_.size(), columns.place(columns.lines_.size() - 1));
+        csv_row(*line, separator, columns.names_.size(), file, lines.number());
     columns.cells_.emplace_back(cells.begin(), cells.end());
   }
   return columns;
@@ -41,7 +41,7 @@ bool CsvColumns::has(std::string_view column) const {
 }
 
 std::size_t CsvColumns::index_of(std::string_view column) const {
-  require_named_once(names_, column, file_.string() + ":" + std::to_string(header_line_));
+  require_named_once(names_, column, file_, header_line_);
   return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), column) - names_.begin());
 }
 

@@ -77,13 +77,13 @@ std::vector<std::string_view> csv_names(std::string_view line, char separator) {
 }
 
 std::vector<std::string_view> csv_row(std::string_view line, char separator, std::size_t columns,
-                                      const std::string& place) {
+                                      const std::filesystem::path& file, std::size_t number) {
   std::vector<std::string_view> cells = csv_cells(line, separator);
   while (cells.size() > columns && cells.back().empty()) cells.pop_back();
   if (cells.size() <= columns) return cells;
   const bool by_comma = separator == ',';
   throw FileError(
-      {place,
+      {file.string() + ":" + std::to_string(number),
        "the line has " + std::to_string(cells.size()) + " cells, more than the " + std::to_string(columns) +
            " names of the first line",
        by_comma ? "Commas part the cells here: a decimal comma makes two cells of one number." : "",
@@ -91,11 +91,10 @@ std::vector<std::string_view> csv_row(std::string_view line, char separator, std
                 : "a name for each cell"});
 }
 
-void require_named_once(const std::vector<std::string>& names, std::string_view column,
-                        const std::string& place) {
-  if (std::count(names.begin(), names.end(), column) < 2) return;
-  throw FileError({place, "two columns are called " + in_quotes(column), "",
-                   "names that differ, of which the columns that count are named as they are asked for"});
+void refuse_name_twice(std::string_view column, const std::filesystem::path& file, std::size_t number) {
+  throw FileError({file.string() + ":" + std::to_string(number),
+                   "two columns are called " + in_quotes(column), "Which of them counts is not told.",
+                   "another name for one of them"});
 }
 
 char csv_separator(std::string_view header) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -23,15 +24,23 @@ namespace glissade::io {
 
 /// The cells of a line below the one that names the columns. It may have fewer cells than there are names; empty ones at its
 /// end do not count.
-/// @param place  of the line, for messages: "file.csv:3"
+/// @param file,number  of the line, for messages
 /// @throws FileError if it has more: of a number with a decimal comma a file parted by commas makes two
 [[nodiscard]] std::vector<std::string_view> csv_row(std::string_view line, char separator,
-                                                    std::size_t columns, const std::string& place);
+                                                    std::size_t columns, const std::filesystem::path& file,
+                                                    std::size_t number);
 
-/// @param place  of the line that names the columns
+/// @throws FileError always
+[[noreturn]] void refuse_name_twice(std::string_view column, const std::filesystem::path& file,
+                                    std::size_t number);
+
+/// @param file,number  of the line that names the columns, for messages
 /// @throws FileError if the column's name stands there more than once
-void require_named_once(const std::vector<std::string>& names, std::string_view column,
-                        const std::string& place);
+template <typename Names>
+void require_named_once(const Names& names, std::string_view column, const std::filesystem::path& file,
+                        std::size_t number) {
+  if (std::count(names.begin(), names.end(), column) > 1) refuse_name_twice(column, file, number);
+}
 
 /// @return what parts the cells of a file with this first line
 [[nodiscard]] char csv_separator(std::string_view header);

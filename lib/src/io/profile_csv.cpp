@@ -25,13 +25,13 @@ using namespace io;
 namespace {
 
 std::size_t column_named(const std::vector<std::string_view>& names, const std::string& name,
-                         const std::string& place) {
-  require_named_once({names.begin(), names.end()}, name, place);
+                         const std::filesystem::path& file, std::size_t line) {
+  require_named_once(names, name, file, line);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   std::string there;
   for (const std::string_view other : names) there += (there.empty() ? "" : ", ") + in_quotes(other);
-  throw FileError({place, "there is no column " + in_quotes(name),
+  throw FileError({file.string() + ":" + std::to_string(line), "there is no column " + in_quotes(name),
                    "The first line names the columns; here they are " + there + ".",
                    "columns: [x, z] in the design, with the names of your file"});
 }
@@ -76,8 +76,8 @@ class ProfileReader {
       throw FileError({file.string(), "the file is empty", "", "a line of names, then a line a point"});
     separator_ = csv_separator(*header);
     names_ = csv_names(*header, separator_);
-    distance_ = column_named(names_, options.distance_column, place());
-    height_ = column_named(names_, options.height_column, place());
+    distance_ = column_named(names_, options.distance_column, file, lines_.number());
+    height_ = column_named(names_, options.height_column, file, lines_.number());
     slope_ = further_column(options.slope_angle_column);
     curvature_ = further_column(options.curvature_column);
     const auto other = std::find(names_.begin(), names_.end(), other_coordinate_of(options.distance_column));
@@ -91,7 +91,7 @@ class ProfileReader {
     Reach beside;
     while (const auto line = lines_.next()) {
       line_ = *line;
-      cells_ = csv_row(line_, separator_, names_.size(), place());
+      cells_ = csv_row(line_, separator_, names_.size(), file_, lines_.number());
       profile.points.push_back({coordinate(distance_), -coordinate(height_)});
       profile.lines.push_back(lines_.number());
       if (slope_) profile.slope_angles.push_back(Angle::from_degrees(number(*slope_, true).value).radians());
@@ -119,7 +119,7 @@ class ProfileReader {
 
   [[nodiscard]] std::optional<std::size_t> further_column(const std::string& name) const {
     if (name.empty()) return {};
-    return column_named(names_, name, place());
+    return column_named(names_, name, file_, lines_.number());
   }
 
   /// @param bounded  infinity is no number
