@@ -129,8 +129,7 @@ class Course {
 
   /// Where the straight line keeps every limit no answer is slower: the search from there, or that line itself.
   void from_straight_line() {
-    constexpr std::size_t kPieces = 24;  // taste
-    constexpr double kSlower = 1e-6;     // accuracy: that of a time
+    constexpr double kSlower = 1e-6;  // accuracy: that of a time
     if (stopped_ || problem_.finish.kind != FinishKind::point || has_straight_line_behind(kSlower)) return;
     const CenterlinePtr line = std::make_shared<StraightLine>(problem_.endpoints);
     const referee::Judgement judgement = referee::judge_track(problem_, line, referee::kRefereeSamples);
@@ -139,15 +138,21 @@ class Course {
       return !kept() ||
              (is_fastest() && best_->judgement.travel_time > (1.0 + kSlower) * judgement.travel_time);
     };
-    for (std::size_t way = 0; way < ways_.size() && is_behind() && !stopped_; ++way) {
-      const ScaledProblem problem = scaled(problem_, ways_[way]);
-      const std::optional<GuessCurve> curve = straight_line(problem);
-      if (!curve) return;
-      const Mesh mesh = mesh_of(problem, graded_knots(*curve, kPieces, 1.0), curve->length);
-      const Foothold foothold{way, mesh, fit(*curve, Transcription(mesh))};
-      from(foothold);
-      if (is_behind() && !stopped_) take(way, searcher_.mended(ways_[way], foothold.mesh, foothold.z));
-    }
+    from_line({std::fabs(problem_.endpoints.run), problem_.endpoints.drop}, is_behind);
+  }
+
+  /// The same of tracks that are to be low or short: where the steepest ramp keeps every limit none is higher, or longer.
+  void from_ramp() {
+    constexpr double kHigher = 1e-7;  // accuracy: that of a limit
+    if (stopped_ || !is_low_or_short(problem_.objective.kind)) return;
+    const std::optional<Ramp> ramp = steepest_ramp(problem_);
+    if (!ramp || !ramp->keeps_limits(options_.limit_tolerance)) return;
+    const double length = measure_of(*ramp->line, problem_.objective.kind);
+    const auto is_behind = [&] {
+      return !kept() || measure_of(*best_->track, problem_.objective.kind) > (1.0 + kHigher) * length;
+    };
+    const Endpoints ends = ramp->line->endpoints();
+    from_line({ends.run, ends.drop}, is_behind);
   }
 
   void from(const Foothold& foothold) {
@@ -263,6 +268,21 @@ class Course {
       from(footholds);
       return kept() || stopped_;
     };
+  }
+
+  /// The search from a straight line, by every way, or that line itself, while the best track is behind it.
+  /// @param finish  of the line [m]
+  void from_line(Vec2 finish, const std::function<bool()>& is_behind) {
+    constexpr std::size_t kPieces = 24;  // taste
+    for (std::size_t way = 0; way < ways_.size() && is_behind() && !stopped_; ++way) {
+      const ScaledProblem problem = scaled(problem_, ways_[way]);
+      const std::optional<GuessCurve> curve = straight_line(problem, (1.0 / problem.chord) * finish);
+      if (!curve) return;
+      const Mesh mesh = mesh_of(problem, graded_knots(*curve, kPieces, 1.0), curve->length);
+      const Foothold foothold{way, mesh, fit(*curve, Transcription(mesh))};
+      from(foothold);
+      if (is_behind() && !stopped_) take(way, searcher_.mended(ways_[way], foothold.mesh, foothold.z));
+    }
   }
 
   [[nodiscard]] bool is_fastest() const { return problem_.objective.kind == ObjectiveKind::travel_time; }
@@ -443,6 +463,19 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   report.finer_mesh_wins = left_to_win(best, priced, onto_finest);
 }
 
+/// A track that no mesh was needed for, in the place of the one found.
+void answer_with(CenterlinePtr track, const referee::Judgement& judgement, std::vector<ActiveLimit> active,
+                 Optimum& optimum) {
+  OptimizeReport& report = optimum.report;
+  optimum.centerline = std::move(track);
+  report.active = std::move(active);
+  report.travel_time = judgement.travel_time;
+  report.exit_speed = judgement.exit_speed;
+  report.checks = judgement.checks;
+  report.first_order_residual = 0.0;
+  report.finer_mesh_wins = 0.0;
+}
+
 /// The unlimited optimum instead, where the search stayed behind it although it keeps every limit: next to the reach limit its
 /// flattest stretch asks for more pieces than a mesh has.
 void take_unlimited(const Problem& problem, const OptimizeOptions& options, Optimum& optimum) {
@@ -464,33 +497,19 @@ void take_unlimited(const Problem& problem, const OptimizeOptions& options, Opti
       referee::judge_track(problem, fastest.centerline, referee::kRefereeSamples);
   if (!judgement.arrived || judgement.worst > options.limit_tolerance) return;
   if (!(judgement.travel_time < report.travel_time)) return;
-  optimum.centerline = fastest.centerline;
-  report.active.clear();
-  report.travel_time = judgement.travel_time;
-  report.exit_speed = judgement.exit_speed;
-  report.checks = judgement.checks;
-  report.first_order_residual = 0.0;
-  report.finer_mesh_wins = 0.0;
+  answer_with(fastest.centerline, judgement, {}, optimum);
 }
 
-/// The ramp instead, where it keeps every limit and the search stayed behind it: the search needs something to bend between two
-/// straight ends, and tells nearly upright tracks apart by next to nothing.
+/// The ramp instead, where it keeps every limit and the search, which began from it, stayed behind it: that needs something to
+/// bend between two straight ends, and tells nearly upright tracks apart by next to nothing.
 void take_ramp(const Problem& problem, const OptimizeOptions& options, Optimum& optimum) {
   constexpr double kBehind = 1e-7;  // accuracy: that of a limit
   const ObjectiveKind kind = problem.objective.kind;
-  if (kind != ObjectiveKind::least_drop && kind != ObjectiveKind::least_length) return;
+  if (!is_low_or_short(kind)) return;
   const std::optional<Ramp> ramp = steepest_ramp(problem);
-  if (!ramp || !ramp->judgement.arrived || ramp->judgement.worst > options.limit_tolerance) return;
-  const double known = measure_of(Ramp{optimum.centerline, {}}, kind);
-  if (!(measure_of(*ramp, kind) < (1.0 - kBehind) * known)) return;
-  OptimizeReport& report = optimum.report;
-  optimum.centerline = ramp->line;
-  report.active = active_limits(*ramp, problem);
-  report.travel_time = ramp->judgement.travel_time;
-  report.exit_speed = ramp->judgement.exit_speed;
-  report.checks = ramp->judgement.checks;
-  report.first_order_residual = 0.0;
-  report.finer_mesh_wins = 0.0;
+  if (!ramp || !ramp->keeps_limits(options.limit_tolerance)) return;
+  if (!(measure_of(*ramp->line, kind) < (1.0 - kBehind) * measure_of(*optimum.centerline, kind))) return;
+  answer_with(ramp->line, ramp->judgement, active_limits(*ramp, problem), optimum);
 }
 
 /// Tells why there is no track.
@@ -552,6 +571,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     conflict = course.explained(resolve_with(options, control), certain);
   course.look_again(by_footholds);
   course.from_straight_line();
+  course.from_ramp();
   report.ended_early = course.stopped();
   if (!course.kept()) {
     tell_none(std::move(conflict), certain, course.stopped(), report);

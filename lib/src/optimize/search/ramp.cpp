@@ -38,7 +38,7 @@ bool reaches(const Problem& problem, const Ramp& ramp) {
   return speed && *speed >= *problem.limits.exit_speed.lowest;
 }
 
-/// The least value from which on the exit speed is reached, or where it is no more. @pre it is reached at `enough` alone
+/// The ramp at the least value at which the exit speed is reached. @pre it is reached at `enough`, and not at `too_little`
 template <typename RampAt>
 Ramp barely_reaching(const Problem& problem, double too_little, double enough, const RampAt& ramp_at) {
   for (int i = 0; i < kHalvings; ++i) {
@@ -74,8 +74,8 @@ std::optional<Ramp> steepest_ramp(const Problem& problem) {
   return barely_reaching(problem, ends, length, of_length);
 }
 
-double measure_of(const Ramp& ramp, ObjectiveKind objective) {
-  return objective == ObjectiveKind::least_length ? ramp.line->length() : ramp.line->endpoints().drop;
+double measure_of(const Centerline& track, ObjectiveKind objective) {
+  return objective == ObjectiveKind::least_length ? track.length() : track.endpoints().drop;
 }
 
 std::vector<ActiveLimit> active_limits(const Ramp& ramp, const Problem& problem) {
@@ -89,7 +89,7 @@ std::vector<ActiveLimit> active_limits(const Ramp& ramp, const Problem& problem)
       const std::optional<Problem> changed = with_bound(problem, check.limit, value);
       if (!changed) return std::nullopt;
       const std::optional<Ramp> other = steepest_ramp(*changed);
-      return other ? std::optional(measure_of(*other, problem.objective.kind)) : std::nullopt;
+      return other ? std::optional(measure_of(*other->line, problem.objective.kind)) : std::nullopt;
     };
     const std::optional<double> more = measure_at(check.value + step);
     const std::optional<double> less = measure_at(check.value - step);

@@ -116,11 +116,11 @@ std::vector<GuessCurve> starts(const ScaledProblem& problem) {
   return curves;
 }
 
-std::optional<GuessCurve> straight_line(const ScaledProblem& problem) {
-  const double length = math::hypot(problem.run, problem.drop);
+std::optional<GuessCurve> straight_line(const ScaledProblem& problem, Vec2 finish) {
+  const double length = norm(finish);
   const double between = length - problem.lead_in - problem.lead_out;
   if (!(between > 2.0 * kShortestCore)) return std::nullopt;
-  const double angle = math::atan2(problem.drop, problem.run);
+  const double angle = math::atan2(finish.y, finish.x);
   constexpr std::size_t kSteps = 64;  // taste
   GuessCurve curve;
   for (std::size_t i = 0; i <= kSteps; ++i) curve.sigma.push_back(static_cast<double>(i) / kSteps);

@@ -8,8 +8,9 @@
 
 namespace glissade::optimizer {
 
-/// The straight line itself, between its straight ends. @return none where these leave nothing between them
-[[nodiscard]] std::optional<GuessCurve> straight_line(const ScaledProblem& problem);
+/// A straight line to a finish, between its straight ends. @return none where these leave nothing between them
+/// @param finish  run and drop [chords]
+[[nodiscard]] std::optional<GuessCurve> straight_line(const ScaledProblem& problem, Vec2 finish);
 
 /// Curves to begin the search with, the most promising first; none comes from the user. Lengths are those of
 /// the core, without the straight ends.
