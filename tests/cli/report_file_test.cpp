@@ -75,6 +75,20 @@ TEST_CASE("the report's verdicts pass for what the build checked, and say what i
   }
 }
 
+TEST_CASE("the report calls a searched track what was searched for") {
+  const TempDir place;
+  put_bytes(place / "ramp.yaml",
+            "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.05}\n"
+            "limits: {objective: least_drop, exit_speed: {lowest: 10 m/s}, slope_angle: {highest: 65 deg}}\n"
+            "export: [csv]\n");
+  REQUIRE(glissade_run({"build", "ramp.yaml", "-o", "out"}, {place.path(), {}, {}}).exit_code == 0);
+  std::map<std::string, std::string> verdicts;
+  const json report = data_of(bytes_of(place / "out/ramp.report.html"));
+  for (const json& check : report["checks"]) verdicts[check["name"]] = check["verdict"];
+  CHECK(verdicts["Lowest within the limits"] == "pass");
+  CHECK_FALSE(verdicts.contains("Fastest within the limits"));
+}
+
 TEST_CASE("with only a table to write, the report does not claim that files were read back") {
   const TempDir place;
   REQUIRE(glissade_run({"build", shipped("grain_chute"), "-o", "out", "--set", "export=[csv]"},

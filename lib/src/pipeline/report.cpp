@@ -8,6 +8,7 @@
 #include "glissade/pipeline/rules.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -173,7 +174,9 @@ ReportCheck limits(const std::vector<ReportLimit>& limits) {
 
 ReportCheck search(const Design& design, const OptimizeReport& search) {
   const bool optimal = search.status == OptimizeStatus::optimal;
-  return {design.limits ? "Fastest within the limits" : "Fastest, searched for", verdict(optimal),
+  std::string name = searched_name(design);
+  name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
+  return {std::move(name), verdict(optimal),
           std::string(to_text(search.status)) + ": " + search.convergence_text()};
 }
 
