@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/core/odd_characters.hpp"
 #include "glissade/design/schema.hpp"
 #include "glissade/design/template.hpp"
 #include "glissade/io/atomic_file.hpp"
@@ -85,6 +86,12 @@ ExitCode write_template(const CLI::App& command, const InitArguments& options) {
   }
   const std::filesystem::path path = options.output;
   const std::filesystem::path profile = path.parent_path() / kTemplateProfileName;
+  if (needs_profile && path.lexically_normal() == profile.lexically_normal()) {
+    throw InputError(
+        {"--output",
+         with_visible_characters(options.output) + " is what the profile beside the design is called",
+         "One of the two would be lost.", "another name"});
+  }
   if (!options.force) {
     require_new(path);
     if (needs_profile) require_new(profile);

@@ -151,11 +151,14 @@ std::string merged_directory(const CLI::App& command) {
   return merged == nullptr || merged->results().empty() ? std::string() : merged->results().front();
 }
 
+/// Whether an option names the directory that a sweep writes into, or its merged table.
+bool is_output_of_sweep(const CLI::Option& option) {
+  return option.get_type_name() == "PATH";
+}
+
 /// Whether an option names a file that the command writes whole.
-bool writes_file(const CLI::App& command, const CLI::Option& option) {
-  if (option.get_positional()) return false;
-  return option.get_type_name() == "FILE" ||
-         (name_of(option) == "--output" && !merged_directory(command).empty());
+bool writes_file(const CLI::Option& option) {
+  return !option.get_positional() && (option.get_type_name() == "FILE" || is_output_of_sweep(option));
 }
 
 std::vector<Override> overrides_of(const CLI::App& command) {
@@ -170,8 +173,17 @@ std::vector<Override> overrides_of(const CLI::App& command) {
 }
 
 /// All files that an option has the command write whole.
-std::vector<std::string> written_by(const CLI::Option& option) {
+std::vector<std::string> written_by(const CLI::App& command, const CLI::Option& option) {
   std::vector<std::string> files = option.results();
+  if (is_output_of_sweep(option) && merged_directory(command).empty()) {
+    std::vector<std::string> inside;
+    for (const std::string& directory : files) {
+      // Manifest and rows take no other file's place.
+      for (const char* const name : {"sweep.html", "sweep.sbatch"})
+        inside.push_back((std::filesystem::path(directory) / name).string());
+    }
+    return inside;
+  }
   if (name_of(option) != "--frozen") return files;
   for (const std::string& design : option.results())
     files.push_back(
@@ -221,16 +233,15 @@ bool is_read(const CLI::App& command, const std::string& path) {
   const std::string merged = merged_directory(command);
   if (!merged.empty() && is_of_sweep(merged, path)) return true;
   for (const CLI::Option* option : command.get_options()) {
-    if (!option->get_positional()) continue;
+    if (!option->get_positional() && name_of(*option) != "--points") continue;
     for (const std::string& argument : option->results()) {
       if (!std::filesystem::is_regular_file(argument, ignored)) continue;
       if (std::filesystem::equivalent(argument, path, ignored)) return true;
       if (!option->get_type_name().ends_with("DESIGN.yaml") && !option->get_type_name().starts_with("DESIGN"))
         continue;
       try {
-        for (const std::filesystem::path& file :
-             DesignSource::read(argument).data_files(overrides_of(command))) {
-          if (std::filesystem::equivalent(file, path, ignored)) return true;
+        for (const DataFile& data : DesignSource::read(argument).data_files(overrides_of(command))) {
+          if (std::filesystem::equivalent(data.file, path, ignored)) return true;
         }
       } catch (const Error&) {
         continue;  // the command says what is wrong with it
@@ -296,16 +307,16 @@ void refuse_ignored(const CLI::App& command, const std::vector<std::string>& opt
 void keep_what_is_read(const CLI::App& program) {
   const std::vector<const CLI::Option*> options = given(program).get_options();
   for (auto one = options.begin(); one != options.end(); ++one) {
-    if (!writes_file(given(program), **one)) continue;
-    for (const std::string& path : written_by(**one)) {
+    if (!writes_file(**one)) continue;
+    for (const std::string& path : written_by(given(program), **one)) {
       require_beside_output(**one, path);
       if (is_read(given(program), path)) {
         throw InputError({name_of(**one), with_visible_characters(path) + " is read by this command, too",
                           "What it holds would be lost.", "another name"});
       }
       const auto same = [&](const CLI::Option* other) {
-        if (!writes_file(given(program), *other)) return false;
-        const std::vector<std::string> files = written_by(*other);
+        if (!writes_file(*other)) return false;
+        const std::vector<std::string> files = written_by(given(program), *other);
         return std::any_of(files.begin(), files.end(),
                            [&](const std::string& file) { return is_one_file(file, path); });
       };

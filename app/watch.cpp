@@ -12,6 +12,7 @@
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <utility>
 #include <vector>
 
 namespace glissade::app {
@@ -28,7 +29,10 @@ std::string time_of_day() {
 /// Adds what the design names now, or, of one that cannot be read, what it named before.
 void add_data_files(FileWatch& files, const Watched& watched, std::vector<std::filesystem::path>& known) {
   try {
-    known = DesignSource::read(watched.design).data_files(watched.overrides.values());
+    std::vector<std::filesystem::path> named;
+    for (DataFile& data : DesignSource::read(watched.design).data_files(watched.overrides.values()))
+      named.push_back(std::move(data.file));
+    known = std::move(named);
   } catch (const Error&) {
     // Making it tells what is wrong with it.
   }

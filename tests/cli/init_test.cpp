@@ -113,6 +113,15 @@ TEST_CASE("init of points writes both files or none") {
   CHECK(bytes_of(place / "profile.csv") == "my measurements");
 }
 
+TEST_CASE("a design is not written where its own profile goes") {
+  const TempDir place;
+  const Outcome outcome = glissade_run({"init", "points", "-o", "./profile.csv"}, {place.path(), {}, {}});
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors,
+             Contains("--output: ./profile.csv is what the profile beside the design is called"));
+  CHECK(place.names().empty());
+}
+
 TEST_CASE("a finish that is not where the profile ends is refused with both places") {
   const TempDir place;
   const RunLimits here{place.path(), {}, {}};

@@ -2,6 +2,7 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -222,6 +223,136 @@ TEST_CASE("what a command reads is not written over, nor one result by another")
   CHECK(with({"--frozen", frozen}).exit_code == 0);
   CHECK(glissade_run({"solve", design, "--csv", result}).exit_code == 0);
   CHECK(glissade_run({"solve", design, "--csv", result}).exit_code == 0);
+}
+
+TEST_CASE("no file of a build takes the place of one that its design reads, by whatever path") {
+  const TempDir place;
+  const std::filesystem::path directory = place.path();
+  constexpr const char* kSlab =
+      "body: {friction_angle: 10 deg}\n"
+      "cross_section: {kind: slab, width: 200 mm, thickness: 20 mm}\nmesh: {tolerance: 5 mm}\n";
+  const std::string points = "x,z\n0,1.5\n1,0.7\n2,0.2\n3,0\n";
+  const std::string drawn = std::string("glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}}\n") + kSlab;
+  const std::string between =
+      std::string("glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 3 m, z: 0.5 m}}\n") + kSlab;
+  std::filesystem::create_directory(directory / "sub");
+  std::filesystem::create_directory_symlink(directory, directory / "link");
+  struct Case {
+    std::string design;
+    std::string text;
+    std::string read;     ///< by the design
+    std::string told_at;  ///< key with its place
+    std::vector<std::string> command;
+  };
+  const std::vector<Case> cases = {
+      {"p.yaml",
+       drawn + "centerline: {kind: points, file: p.csv}\nexport: [stl, csv]\n",
+       "p.csv",
+       "p.yaml:6:34: centerline.file: ",
+       {"build", "p.yaml", "-o", "."}},
+      {"q.yaml",
+       drawn + "centerline: {kind: points, file: sub/../q.csv}\nexport: [csv]\n",
+       "q.csv",
+       "q.yaml:6:34: centerline.file: ",
+       {"build", "q.yaml", "-o", "link/sub/.."}},
+      {"t.yaml",
+       between + "limits: {stay_above: [{file: t.csv}]}\nexport: [stl, csv]\n",
+       "t.csv",
+       "t.yaml:6:30: limits.stay_above.0.file: ",
+       {"build", "t.yaml", "-o", "."}},
+      {"r.yaml",
+       drawn + "centerline: {kind: points, file: r.coordinates.csv}\n",
+       "r.coordinates.csv",
+       "r.yaml:6:34: centerline.file: ",
+       {"profile", "r.yaml", "-d", "."}},
+      {"d.yaml",
+       drawn + "centerline: {kind: points, file: d.report.html}\nexport: [stl]\n",
+       "d.report.html",
+       "d.yaml:6:34: centerline.file: ",
+       {"build", "d.yaml", "-o", "."}},
+      {"s.csv", between + "export: [csv]\n", "s.csv", "s.csv: the design: ", {"build", "s.csv", "-o", "."}}};
+  for (const Case& item : cases) {
+    const std::string held = item.read == item.design ? item.text : points;
+    put_bytes(directory / item.read, held);
+    put_bytes(directory / item.design, item.text);
+    const std::vector<std::string> before = place.names();
+    const Outcome outcome = glissade_run(item.command, {directory, {}, {}});
+    INFO(outcome.errors);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.errors, Contains(item.told_at) &&
+                                   Contains(item.read + " is read by this command, too") &&
+                                   Contains("Try: another directory for the files, or another name for"));
+    CHECK(bytes_of(directory / item.read) == held);
+    CHECK(place.names() == before);
+  }
+  // Elsewhere all of these are built.
+  const Outcome elsewhere = glissade_run({"build", "t.yaml", "-o", "out"}, {directory, {}, {}});
+  INFO(elsewhere.errors);
+  CHECK(elsewhere.exit_code == 0);
+}
+
+TEST_CASE(
+    "a build reads neither what it wrote itself nor what is frozen in its own place, and removes neither") {
+  const TempDir place;
+  const std::filesystem::path directory = place.path();
+  const std::string body =
+      "body: {friction_angle: 10 deg}\ncross_section: {kind: slab, width: 200 mm, thickness: 20 mm}\n"
+      "mesh: {tolerance: 5 mm}\n";
+  const std::string first = "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 3 m, z: 0.5 m}}\n" +
+                            body + "export: [csv]\n";
+  put_bytes(directory / "x.yaml", first);
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return glissade_run(arguments, {directory, {}, {}});
+  };
+  REQUIRE(run({"solve", "x.yaml", "--frozen", "found.yaml"}).exit_code == 0);
+  const std::string table = bytes_of(directory / "found.csv");
+  const Outcome frozen = run({"build", "found.yaml", "-o", "."});
+  CHECK(frozen.exit_code == 2);
+  CHECK_THAT(frozen.errors,
+             Contains("centerline.file: ") && Contains("found.csv is read by this command, too"));
+  CHECK(bytes_of(directory / "found.csv") == table);
+
+  REQUIRE(run({"build", "x.yaml", "-o", "."}).exit_code == 0);
+  const std::string stations = bytes_of(directory / "x.csv");
+  const std::string again =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}}\n" + body +
+      "centerline: {kind: points, file: x.csv, columns: [run_m, z_m, slope_angle_deg, curvature_per_m]}\n";
+  put_bytes(directory / "x.yaml", again + "export: [csv]\n");
+  CHECK(run({"build", "x.yaml", "-o", "."}).exit_code == 2);
+  CHECK(bytes_of(directory / "x.csv") == stations);
+  // It is no file of an earlier build that goes because this one has none of its name.
+  put_bytes(directory / "x.yaml", again + "export: [stl]\n");
+  const Outcome kept = run({"build", "x.yaml", "-o", "."});
+  INFO(kept.errors);
+  CHECK(kept.exit_code == 0);
+  CHECK(bytes_of(directory / "x.csv") == stations);
+}
+
+TEST_CASE(
+    "the page of a sweep takes the place of no file that it reads, nor does anything that of a set of "
+    "rules") {
+  const TempDir place;
+  const std::filesystem::path directory = place.path();
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    return glissade_run(arguments, {directory, {}, {}});
+  };
+  put_bytes(directory / "sweep.html", "body.friction_angle\n10 deg\n12 deg\n");
+  put_bytes(directory / "rules.yaml",
+            "glissade_rules: 1\nname: own\ntitle: Own\n"
+            "rules: [{id: a, sentence: s, quantity: run, highest: 9 m, source: s, certainty: own}]\n");
+  put_bytes(directory / "d.yaml",
+            "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 3 m, z: 0.5 m}}\n"
+            "body: {friction_angle: 10 deg}\nrules: {sets: [rules.yaml]}\n");
+  const Outcome swept = run({"sweep", "d.yaml", "--points", "sweep.html", "-o", "."});
+  CHECK(swept.exit_code == 2);
+  CHECK_THAT(swept.errors, Contains("--output: ") && Contains("sweep.html is read by this command, too"));
+  CHECK_FALSE(std::filesystem::exists(directory / "manifest.json"));
+  const std::string rules = bytes_of(directory / "rules.yaml");
+  const Outcome outcome = run({"solve", "d.yaml", "--csv", "rules.yaml"});
+  INFO(outcome.errors);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("--csv: rules.yaml is read by this command, too"));
+  CHECK(bytes_of(directory / "rules.yaml") == rules);
 }
 
 TEST_CASE("what a sweep has left is not written over by its own table") {

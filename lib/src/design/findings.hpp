@@ -38,8 +38,8 @@ class Findings {
   void add_unless_spoiled(Finding finding);
 
   /// Notes a file that the design names.
-  void add_data_file(std::filesystem::path file) { data_files_.push_back(std::move(file)); }
-  [[nodiscard]] const std::vector<std::filesystem::path>& data_files() const { return data_files_; }
+  void add_data_file(DataFile file) { data_files_.push_back(std::move(file)); }
+  [[nodiscard]] const std::vector<DataFile>& data_files() const { return data_files_; }
 
   /// Has the reading note what it asks for; `notes` outlives this.
   void keep(Notes& notes) { notes_ = &notes; }
@@ -65,7 +65,7 @@ class Findings {
   const std::vector<Override>& overrides_;
   std::map<std::string, Position, std::less<>> positions_;
   std::vector<Problem> problems_;
-  std::vector<std::filesystem::path> data_files_;
+  std::vector<DataFile> data_files_;
   std::size_t left_out_ = 0;
   Notes* notes_ = nullptr;
 };

@@ -276,7 +276,7 @@ void read_points(MapReader& map, CenterlineDesign& centerline, const std::filesy
     const std::string text = as_text(*value, findings).value_or("");
     if (!text.empty()) {
       centerline.points_file = design_file.parent_path() / text;
-      findings.add_data_file(centerline.points_file);
+      findings.add_data_file({centerline.points_file, value->key_path});
     }
   }
   read_point_columns(map, centerline, findings);
@@ -509,7 +509,7 @@ Design DesignSource::with(const std::vector<Override>& overrides, ReachCheck rea
   throw InputError(findings.issues());
 }
 
-std::vector<std::filesystem::path> DesignSource::data_files(const std::vector<Override>& overrides) const {
+std::vector<DataFile> DesignSource::data_files(const std::vector<Override>& overrides) const {
   Findings findings(parsed_->file, overrides);
   Node root = parsed_->root;
   apply_overrides(root, overrides, findings);

@@ -80,7 +80,7 @@ std::vector<Vec2> read_file(MapReader& map, const Value& file, const std::filesy
   const auto report = [&](Issue issue) {
     findings.add(file.node->at, map.path_of("line"), std::move(issue));
   };
-  findings.add_data_file(directory / name);
+  findings.add_data_file({directory / name, file.key_path});
   try {
     const ProfilePoints points = read_profile_csv(directory / name, options);
     if (auto fault = line_fault(name, points, options)) {

@@ -205,6 +205,7 @@ std::vector<Rule> rules_of_set(const Value& value, const std::string& name, Rule
     for (const RuleSet& set : shipped_rule_sets()) names.push_back(set.name);
     findings.add(value.node->at, value.key_path,
                  {"", value.key + ": there is no set of rules named " + shown(name),
+  findings.add_data_file({folder / name, value.key_path});
                   "There are " + listed(names) + "; a file of one's own ends in .yaml.",
                   std::string(nearest_word(name, names))});
     return {};

@@ -7,6 +7,9 @@
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/cross_section.hpp"
 #include "pipeline/fabricate.hpp"
+#include "pipeline/formats.hpp"
+#include "pipeline/owned_files.hpp"
+#include "pipeline/read_files.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/staging.hpp"
 #include "pipeline/steps.hpp"
@@ -48,13 +51,38 @@ void write_report(const fs::path& path, const Design& design, const BuildForRepo
   file.commit();
 }
 
+/// What there is beside the files that a design asks for.
+std::vector<std::string> names_beside(const std::string& stem, const BuildOptions& options) {
+  std::vector<std::string> names = {OwnedFiles::list_name(stem)};
+  if (options.report) names.push_back(stem + kReportEnding);
+  return names;
+}
+
+std::vector<std::string> names_of(const Assembly& assembly, const BuildOptions& options) {
+  std::vector<std::string> names = names_beside(assembly.stem, options);
+  for (const PendingFile& file : assembly.files) names.push_back(file.name);
+  return names;
+}
+
+/// The names that are known before there is a track; a search may take long.
+std::vector<std::string> names_known(const Design& design, const BuildOptions& options) {
+  const std::string stem = stem_of(design);
+  std::vector<std::string> names = names_beside(stem, options);
+  for (const ExportFormat format : design.exports.formats)
+    names.push_back(file_name(stem, format, design.exports.formats));
+  return names;
+}
+
 }  // namespace
 
 Build publish(const Design& given, Assembly assembly, const fs::path& directory, const RunContext& context,
               const BuildOptions& options) {
   const Design design = as_solved(given, assembly.track);
   Steps steps(context, assembly.total_cost, assembly.cost);
+  require_none_read(given, directory, names_of(assembly, options));
   Staging staging(directory, assembly.stem, given.file);
+  // What an earlier build wrote may be what the design reads by now.
+  staging.keep([&](const fs::path& file) { return is_read_by(given, file); });
   std::vector<fs::path> made;
   std::vector<fs::path> read_back;
   for (const PendingFile& file : assembly.files) {
@@ -137,6 +165,7 @@ Build build(const Design& design, const fs::path& directory, const RunContext& g
   RunContext context = given_context;
   require_cross_section(design);
   require_same_design(directory, stem_of(design), design.file);
+  require_none_read(design, directory, names_known(design, options));
   WholeProgress progress(given_context.progress);
   context.progress = progress.of_search();
   Track track = solve(design, context);

@@ -322,6 +322,7 @@ Published Staging::publish() {
   }
   for (const std::string& name : owned.names()) {
     if (wanted.contains(name) || !owned.unchanged(name)) continue;
+    if (stays_ && stays_(target_ / name)) continue;
     moves.remove(target_ / name);
     published.removed.push_back(target_ / name);
   }

@@ -4,6 +4,7 @@
 #include "glissade/io/unfinished.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <optional>
 #include <string>
@@ -56,6 +57,10 @@ class Staging {
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
 
+  /// Has publish() leave files of an earlier set in their places, whether or not the new set has them.
+  /// @param stays  asked of each that would be removed
+  void keep(std::function<bool(const std::filesystem::path&)> stays) { stays_ = std::move(stays); }
+
   /// @param name  of a file, relative to the target; folders in it are made
   /// @return where to make the file that will be called `name`
   [[nodiscard]] std::filesystem::path path_for(const std::string& name);
@@ -88,6 +93,7 @@ class Staging {
   std::optional<Unfinished> unfinished_;
   std::list<Unfinished> unfinished_directories_;
   std::vector<std::string> names_;
+  std::function<bool(const std::filesystem::path&)> stays_;
 };
 
 }  // namespace glissade::pipeline

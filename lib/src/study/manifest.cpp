@@ -39,7 +39,7 @@ std::set<fs::path> data_files_of(const Study& study) {
   const auto add = [&](const std::vector<Override>& values) {
     try {
       const Design design = study.source.with(values, ReachCheck::no);
-      files.insert(design.data_files.begin(), design.data_files.end());
+      for (const DataFile& data : design.data_files) files.insert(data.file);
     } catch (const Error&) {
       return;  // the point will say why
     }

@@ -164,6 +164,12 @@ struct ExportDesign {
   friend bool operator==(const ExportDesign&, const ExportDesign&) = default;
 };
 
+/// Another file that a design names.
+struct DataFile {
+  std::filesystem::path file;
+  std::string key_path;  ///< whose value it is: "centerline.file"
+};
+
 /// A design file: everything that is asked for, as values (docs/design-file.md).
 struct Design {
   std::string name;
@@ -192,8 +198,8 @@ struct Design {
 
   /// The file that this was read from; empty if it was not.
   std::filesystem::path file;
-  /// Other files that it names: profiles, ground lines. What they hold is part of the design.
-  std::vector<std::filesystem::path> data_files;
+  /// Other files that it names: profiles, ground lines, sets of rules. What they hold is part of the design.
+  std::vector<DataFile> data_files;
   /// Where each key stood, by its path, e.g. {"body.friction_angle", "chute.yaml:7:19"}.
   std::map<std::string, std::string, std::less<>> locations;
 

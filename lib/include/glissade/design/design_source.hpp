@@ -30,8 +30,7 @@ class DesignSource {
   [[nodiscard]] Design with(const std::vector<Override>& overrides, ReachCheck reach = ReachCheck::yes) const;
 
   /// @return other files that the design names, as Design::data_files, also where the design has problems
-  [[nodiscard]] std::vector<std::filesystem::path> data_files(
-      const std::vector<Override>& overrides = {}) const;
+  [[nodiscard]] std::vector<DataFile> data_files(const std::vector<Override>& overrides = {}) const;
 
   [[nodiscard]] const std::string& text() const noexcept;
   [[nodiscard]] const std::filesystem::path& file() const noexcept;
