@@ -163,8 +163,7 @@ std::string breaks_text(const Redesign& found) {
 
 void write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
   if (options.output.empty()) return;
-  Design made = redesigned(design, found, !options.letters);
-  made.file = options.output;
+  Design made = moved_to(redesigned(design, found, !options.letters), options.output);
   const std::string of = design.name.empty() ? std::string("an in-run") : design.name;
   made.name = of + ", redesigned";
   AtomicFile target(options.output);

@@ -39,18 +39,14 @@ ExitCode rewrite(const CLI::App& command, const RewriteArguments& options) {
     refuse_ignored(command, {"--force"}, "without -o", "The design goes to standard output.",
                    "-o chute.yaml --force");
   }
-  Design design = options.input.design();
+  const Design design = options.input.design();
   if (options.output.empty()) {
     print(design_text(design));
     return ExitCode::done;
   }
   if (!options.force) require_new(options.output);
-  // Files that it names are written as seen from where it will lie.
-  std::filesystem::path& points = design.centerline.points_file;
-  if (!points.empty()) points = std::filesystem::absolute(points).lexically_normal();
-  design.file = std::filesystem::absolute(options.output).lexically_normal();
   AtomicFile file(options.output);
-  file.write(design_text(design));
+  file.write(design_text(moved_to(design, options.output)));
   file.commit();
   return ExitCode::done;
 }

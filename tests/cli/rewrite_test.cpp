@@ -55,3 +55,18 @@ TEST_CASE("a profile is named as seen from where the design is written") {
   CHECK_THAT(bytes_of(moved), Contains("file: \"../../profile.csv\""));
   CHECK(glissade_run({"solve", moved, "-q"}).exit_code == 0);
 }
+
+TEST_CASE("a set of rules in a file is named as seen from where the design is written") {
+  const TempDir place;
+  std::filesystem::create_directories(place / "deep");
+  put_bytes(place / "own.yaml",
+            "glissade_rules: 1\nname: own\ntitle: Own\n"
+            "rules: [{id: a, sentence: s, quantity: run, highest: 9 m, source: s, certainty: own}]\n");
+  put_bytes(place / "d.yaml",
+            "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 3 m, z: 0 m}}\n"
+            "body: {friction_angle: 10 deg}\nrules: {sets: [own.yaml, playground-slide]}\n");
+  const std::string moved = (place / "deep/d.yaml").string();
+  REQUIRE(glissade_run({"rewrite", (place / "d.yaml").string(), "-o", moved}).exit_code == 0);
+  CHECK_THAT(bytes_of(moved), Contains("sets: [\"../own.yaml\", \"playground-slide\"]"));
+  CHECK(glissade_run({"solve", moved, "-q"}).exit_code == 0);
+}

@@ -4,6 +4,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/pipeline.hpp"
+#include "glissade/pipeline/probes.hpp"
+#include "glissade/pipeline/rules.hpp"
 
 #include "pipeline/extremes.hpp"
 #include "support/catch.hpp"
@@ -11,6 +13,8 @@
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -220,6 +224,137 @@ TEST_CASE(
     }
     CHECK(limits_problem(frozen, again).has_value() == (limits != "{}"));
   }
+}
+
+TEST_CASE("what a search of any objective found is solved and judged the same when it is frozen") {
+  struct Sought {
+    std::string track;
+    std::string limits;
+    bool stream = false;
+  };
+  const std::string fixed = "{start: {x: 0 m, z: 5 m}, finish: {x: 8 m, z: 0 m}}";
+  const std::string to_left = "{start: {x: 4 m, z: 5 m}, finish: {x: -4 m, z: 0 m}}";
+  const std::string free = "{start: {x: 0 m, z: 10 m}, finish: {x: 5 m, z: free}}";
+  const std::string anywhere = "{start: {x: 0 m, z: 10 m}, finish: {x: free, z: free}}";
+  const std::string edge = "{edge: {x: 0 m, z: 0 m}, azimuth: ";
+  const std::string speed =
+      "exit_speed: {lowest: 8 m/s}, slope_angle: {highest: 50 deg}, smallest_radius: 2 m, ";
+  const std::string high =
+      "exit_speed: {lowest: 12 m/s}, slope_angle: {highest: 35 deg}, smallest_radius: 15 m, ";
+  const std::vector<Sought> all = {
+      {fixed, "smallest_radius: 2 m, objective: {kind: travel_time, worst_case: true}"},
+      {to_left, "smallest_radius: 2 m, waypoints: [[0 m, 2 m]], objective: exit_speed"},
+      {fixed, "smallest_radius: 2 m, objective: least_wear"},
+      {fixed, "smallest_radius: 2 m, objective: {kind: blend, exit_speed_weight: 0.1 s/(m/s)}"},
+      {free, speed + "objective: least_drop"},
+      {anywhere, speed + "exit_slope_angle: 5 deg, objective: least_drop"},
+      {free, speed + "objective: least_length"},
+      {fixed, speed + "objective: least_load"},
+      {fixed, speed + "objective: least_curvature_rate"},
+      {fixed, "smallest_radius: 2 m, objective: least_peak_wear", true},
+      {fixed, "smallest_radius: 2 m, objective: even_speed", true},
+      {edge + "0 deg}", high + "waypoints: [[-5 m, 1.6 m]], objective: least_drop"},
+      {edge + "180 deg}", high + "waypoints: [[5 m, 1.6 m]], objective: least_drop"},
+      {edge + "30 deg}",
+       high + "waypoints: [[-5 m, 1.6 m]], half_planes: [{line: [[-40 m, -1 m], [1 m, -1 m]], stay: above}], "
+              "stay_above: [{line: [[-40 m, -2 m], [1 m, -2 m]]}], objective: least_drop"}};
+  const TempDir directory;
+  for (const Sought& sought : all) {
+    INFO(sought.track << ", " << sought.limits);
+    const std::string of_stream =
+        "body: {friction_coefficient: {low: 0.28, nominal: 0.3, high: 0.32}, entry_speed: 2 m/s}\n"
+        "stream: {mass_flow: 60 t/h, bulk_density: 780 kg/m^3}\n"
+        "cross_section: {kind: u-channel, width: 300 mm, wall_height: 200 mm, thickness: 3 mm}\n";
+    const Design design = parse_design(
+        "glissade: 1\ntrack: " + sought.track + "\n" + (sought.stream ? of_stream : kBody) +
+            "centerline: {kind: fastest}\nlimits: {" + sought.limits + "}\nprobes: [{x: 1 m}, {x: -1 m}]\n",
+        directory / "design.yaml");
+    const Track found = solve(design);
+    write_frozen_design(directory / "frozen.yaml", design, found);
+    const Design frozen = read_design(directory / "frozen.yaml");
+    CHECK(frozen.objective == design.objective);
+    const Track again = solve(frozen);
+    CHECK_FALSE(again.search);
+    CHECK(again.motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-9));
+    CHECK(again.motion.exit_speed() == Approx(found.motion.exit_speed()).epsilon(1e-9));
+    CHECK(limits_problem(frozen, again).has_value() == limits_problem(design, found).has_value());
+    for (const LimitCheck& before : found.limit_checks) {
+      INFO(before.limit.key());
+      const auto now = std::find_if(again.limit_checks.begin(), again.limit_checks.end(),
+                                    [&](const LimitCheck& check) { return check.limit == before.limit; });
+      REQUIRE(now != again.limit_checks.end());
+      CHECK(now->reached == Approx(before.reached).epsilon(1e-6).margin(1e-7));
+    }
+    const std::vector<ProbeReading> probes = probe_readings(design, found);
+    const std::vector<ProbeReading> probes_again = probe_readings(frozen, again);
+    REQUIRE(probes_again.size() == probes.size());
+    for (std::size_t i = 0; i < probes.size(); ++i)
+      CHECK(norm(probes_again[i].position - probes[i].position) < 1e-8);
+  }
+}
+
+TEST_CASE("an objective of a track that is drawn is no reason to refuse it, of another it stays one") {
+  const auto problems = [](const std::string& centerline) {
+    try {
+      static_cast<void>(
+          parse_design("glissade: 1\ntrack: {start: {x: 0 m, z: 4 m}, finish: {x: 4 m, z: 0 m}}\n" + kBody +
+                           "centerline: " + centerline + "\nlimits: {objective: least_drop}\n",
+                       "drawn.yaml"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(problems("{kind: segments, entry_slope_angle: 45 deg, segments: [{to_point: [4 m, 0 m]}]}").empty());
+  CHECK_THAT(problems("{kind: fastest}"), Contains("objective: least_drop, with a drop that is given, 4 m"));
+}
+
+TEST_CASE(
+    "a frozen in-run is held against the rules that its letters brought along, with the same verdicts") {
+  const TempDir directory;
+  const std::string certificate =
+      "glissade: 1\ntrack: {edge: {x: 100 m, z: 20 m}}\nbody: {friction_coefficient: 0.03, drag: 0.0013 "
+      "1/m}\n"
+      "centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m";
+  const std::vector<std::string> designs = {
+      certificate +
+          ", es: 24 m}\nhill: {size: 142 m, design_speed: 27 m/s, construction_point: 125 m, table_height: "
+          "3.2 m}\n"
+          "gates: {count: 5}\n",
+      certificate + "}\n", certificate + ", transition: circle}\nhill: {design_speed: 27 m/s}\n",
+      certificate + "}\nrules: {leave_out: [fis.in-run.load]}\n", certificate + "}\nrules: {sets: []}\n"};
+  for (const std::string& text : designs) {
+    INFO(text);
+    const Design design = parse_design(text, directory / "design.yaml");
+    const Track found = solve(design);
+    write_frozen_design(directory / "frozen.yaml", design, found);
+    const Design frozen = read_design(directory / "frozen.yaml");
+    CHECK(frozen.rules.in_force == design.rules.in_force);
+    const std::vector<Judgement> before = judge_rules(design, found);
+    const std::vector<Judgement> now = judge_rules(frozen, solve(frozen));
+    REQUIRE(now.size() == before.size());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      INFO(before[i].rule.id << ": " << before[i].reason << " / " << now[i].reason);
+      CHECK(now[i].verdict == before[i].verdict);
+      REQUIRE(now[i].value.has_value() == before[i].value.has_value());
+      if (before[i].value) CHECK(*now[i].value == Approx(*before[i].value).epsilon(1e-6).margin(1e-9));
+    }
+  }
+}
+
+TEST_CASE("sets of rules in files of one's own are found from where a frozen design lies") {
+  const TempDir directory;
+  std::filesystem::create_directories(directory / "deep/er");
+  put_bytes(directory / "own.yaml",
+            "glissade_rules: 1\nname: own\ntitle: Own\n"
+            "rules: [{id: a, sentence: s, quantity: run, highest: 9 m, source: s, certainty: own}]\n");
+  const Design design = parse_design(
+      kHead + kBody + "centerline: {kind: straight}\nrules: {sets: [own.yaml]}\n", directory / "design.yaml");
+  REQUIRE(design.data_files.size() == 1);
+  CHECK(design.data_files.front().key_path == "rules.sets.0");
+  write_frozen_design(directory / "deep/er/frozen.yaml", design, solve(design));
+  CHECK_THAT(bytes_of(directory / "deep/er/frozen.yaml"), Contains("\"../../own.yaml\""));
+  CHECK(read_design(directory / "deep/er/frozen.yaml").rules.in_force == design.rules.in_force);
 }
 
 TEST_CASE("a frozen design is no CSV file") {

@@ -406,10 +406,11 @@ void check_least_bound(const Design& design, Collected& findings) {
   }
 }
 
-/// A height that is given is no less for being made the least.
+/// A height that is given is no less for being made the least. Of a track that is drawn nothing is: what was found is frozen
+/// with what it was searched for.
 void check_least_drop(const Design& design, Collected& findings) {
   const TrackDesign& track = design.track;
-  if (!fixes_drop(track.free_finish)) return;
+  if (!fixes_drop(track.free_finish) || is_drawn(design.centerline.kind)) return;
   const char* const free_end = track.free_start ? "start: {x: free, z: free}" : "finish: {x: 5.4 m, z: free}";
   report(
       findings, {path("objective"), "track"},

@@ -164,10 +164,6 @@ RuleSet read_set(const Node& root, Findings& findings) {
   return set;
 }
 
-bool is_file(std::string_view name) {
-  return name.ends_with(".yaml") || name.ends_with(".yml");
-}
-
 /// A set by its name or file; a problem of its file is one of the design's, at the place that names it.
 const RuleSet* shipped(std::string_view name) {
   for (const RuleSet& set : shipped_rule_sets()) {
@@ -199,17 +195,17 @@ std::vector<Rule> fitting_rules(const std::vector<Rule>& rules, const Value& val
 
 std::vector<Rule> rules_of_set(const Value& value, const std::string& name, RuleSubject subject,
                                const std::filesystem::path& folder, Findings& findings) {
-  if (!is_file(name)) {
+  if (!is_rule_file(name)) {
     if (const RuleSet* const set = shipped(name)) return fitting_rules(set->rules, value, subject, findings);
     std::vector<std::string_view> names;
     for (const RuleSet& set : shipped_rule_sets()) names.push_back(set.name);
     findings.add(value.node->at, value.key_path,
                  {"", value.key + ": there is no set of rules named " + shown(name),
-  findings.add_data_file({folder / name, value.key_path});
                   "There are " + listed(names) + "; a file of one's own ends in .yaml.",
                   std::string(nearest_word(name, names))});
     return {};
   }
+  findings.add_data_file({folder / name, value.key_path});
   try {
     return fitting_rules(read_rule_set(folder / name).rules, value, subject, findings);
   } catch (const Error& error) {
@@ -231,14 +227,6 @@ void replace_or_add(std::vector<Rule>& rules, const Rule& rule) {
   }
 }
 
-/// The sets that a kind of centerline brings along.
-std::vector<std::string> suggested_sets(const Design& design) {
-  if (design.stream) return {"chute"};
-  if (design.centerline.kind != CenterlineKind::in_run) return {};
-  const bool is_circle = design.centerline.in_run.transition == InRunTransition::circle;
-  return {is_circle ? "fis-in-run-circle" : "fis-in-run"};
-}
-
 void leave_out(const Value& list, RulesDesign& rules, Findings& findings) {
   for (const Value& item : as_list(list, "[fis.in-run.load]", findings)) {
     const std::string id = as_text(item, findings).value_or("");
@@ -254,6 +242,10 @@ void leave_out(const Value& list, RulesDesign& rules, Findings& findings) {
 }
 
 }  // namespace
+
+bool is_rule_file(std::string_view name) {
+  return name.ends_with(".yaml") || name.ends_with(".yml");
+}
 
 RulesDesign suggested_rules(const std::vector<std::string>& suggested) {
   RulesDesign rules;
@@ -292,7 +284,7 @@ RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& 
 }
 
 void read_rules(MapReader& top, Design& design, Findings& findings) {
-  const std::vector<std::string> suggested = suggested_sets(design);
+  const std::vector<std::string> suggested = suggested_rule_sets(design);
   const auto value = top.find("rules");
   design.rules =
       value ? read_rule_group(*value, suggested, RuleSubject::track, design.file.parent_path(), findings)
@@ -300,6 +292,13 @@ void read_rules(MapReader& top, Design& design, Findings& findings) {
 }
 
 }  // namespace design_file
+
+std::vector<std::string> suggested_rule_sets(const Design& design) {
+  if (design.stream) return {"chute"};
+  if (design.centerline.kind != CenterlineKind::in_run) return {};
+  const bool is_circle = design.centerline.in_run.transition == InRunTransition::circle;
+  return {is_circle ? "fis-in-run-circle" : "fis-in-run"};
+}
 
 RuleSet parse_rule_set(std::string_view text, const std::filesystem::path& file) {
   const std::vector<Override> none;

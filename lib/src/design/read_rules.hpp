@@ -6,9 +6,13 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace glissade::design_file {
+
+/// @return whether a set of rules is a file of one's own, by its name
+[[nodiscard]] bool is_rule_file(std::string_view name);
 
 /// @return the rules of shipped sets, by their names
 [[nodiscard]] RulesDesign suggested_rules(const std::vector<std::string>& suggested);

@@ -5,6 +5,7 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "design/read_in_run.hpp"
+#include "design/read_rules.hpp"
 #include "design/write_body.hpp"
 #include "design/write_fabrication.hpp"
 #include "design/write_rules.hpp"
@@ -372,6 +373,27 @@ std::string design_text(const Design& design) {
   if (design.fabrication) text += "fabrication:" + written_fabrication(*design.fabrication);
   text += "mesh:" + mesh(design.mesh);
   return text + "export:" + written_exports(design.exports);
+}
+
+Design moved_to(Design design, const std::filesystem::path& file) {
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  const std::filesystem::path from = design.file.parent_path();
+  const std::filesystem::path there = whole(file);
+  const auto move = [&](RulesDesign& rules) {
+    if (!rules.sets) return;
+    for (std::string& set : *rules.sets) {
+      const bool stays = !is_rule_file(set) || std::filesystem::path(set).is_absolute();
+      if (!stays) set = whole(from / set).lexically_relative(there.parent_path()).generic_string();
+    }
+  };
+  move(design.rules);
+  if (design.fabrication) move(design.fabrication->rules);
+  std::filesystem::path& points = design.centerline.points_file;
+  if (!points.empty()) points = whole(points);
+  design.file = there;
+  return design;
 }
 
 }  // namespace glissade

@@ -6,6 +6,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/design/rule_sets.hpp"
 #include "glissade/design/write.hpp"
 #include "glissade/io/atomic_file.hpp"
 
@@ -25,12 +26,47 @@ const ClothoidSpline* clothoids_of(const Centerline& centerline) {
   return dynamic_cast<const ClothoidSpline*>(&centerline);
 }
 
+/// Counts places of limits and probes from another zero.
+/// @param by  how far it lies before the one that they count from [m]
+void count_from(double by, Design& design) {
+  if (design.limits) {
+    Limits& limits = *design.limits;
+    for (HalfPlane& plane : limits.half_planes) {
+      plane.point.x += by;
+      if (plane.second) plane.second->x += by;
+    }
+    for (KeepOut& keep_out : limits.keep_outs) {
+      for (Vec2& corner : keep_out.outline) corner.x += by;
+    }
+    for (std::vector<Profile>* const profiles : {&limits.stay_above, &limits.stay_below}) {
+      for (Profile& profile : *profiles) {
+        for (Vec2& point : profile.line) point.x += by;
+      }
+    }
+    for (Vec2& waypoint : limits.waypoints) waypoint.x += by;
+  }
+  for (ProbeDesign& probe : design.probes) {
+    if (probe.origin == ProbeOrigin::x) probe.at += by;
+  }
+}
+
+/// Keeps places of limits and probes where they lie: they are those of the site along the x axis, and off it count from the
+/// edge that an azimuth leads to, or from a start that is given.
+void keep_places(const Design& design, const Track& track, Design& frozen) {
+  if (design.track.start.y == design.track.finish.y) {
+    frozen.track.finish.y = frozen.track.start.y;  // which sin(180 deg) misses by a rounding
+  } else if (design.track.free_start) {
+    count_from(track.endpoints.run, frozen);
+  }
+}
+
 /// The design with the finish where the track ends and nothing left of what its centerline was.
 Design emptied(const Design& design, const Track& track) {
   Design frozen = as_solved(design, track);
   const Endpoints end = track.centerline->endpoints();
   frozen.track.start = track.placement.start();
   frozen.track.finish = track.placement.to_space(end.run, end.drop, 0.0);
+  keep_places(design, track, frozen);
   frozen.track.finish_given = true;
   frozen.track.free_finish = FinishKind::point;
   frozen.track.free_range = {};
@@ -41,6 +77,9 @@ Design emptied(const Design& design, const Track& track) {
   // Gates fill the start area of an in-run's certificate, which goes.
   if (frozen.gates && !frozen.gates->start_area)
     frozen.gates->start_area = design.centerline.in_run.start_area();
+  // An in-run brings rules along, its track alone does not.
+  if (!frozen.rules.sets && design.centerline.kind == CenterlineKind::in_run)
+    frozen.rules.sets = suggested_rule_sets(design);
   frozen.centerline = {};
   return frozen;
 }
@@ -120,8 +159,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
          "Where the track needs a table of its own, it is put beside the design under this name.",
          csv.replace_extension(".yaml").string()});
   }
-  Design frozen = emptied(design, track);
-  frozen.file = file;
+  Design frozen = moved_to(emptied(design, track), file);
   if (design.centerline.kind == CenterlineKind::segments) {
     frozen.centerline = design.centerline;
   } else if (const ClothoidSpline* const clothoids = clothoids_of(*track.centerline)) {
@@ -129,7 +167,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
   } else {
     require_no_other(csv);
     write(csv, table_text(faithful_table(track)));
-    frozen.centerline = as_table(csv);
+    frozen.centerline = as_table(frozen.file.parent_path() / csv.filename());
   }
   const std::string origin = design.name.empty() ? std::string("a design") : design.name;
   std::string note = "# The track found for " + origin + ", as it is: nothing is searched for any more.\n";

@@ -2,11 +2,13 @@
 
 #include "glissade/core/math.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -73,6 +75,15 @@ struct Letters {
   double longest = 0.0;              ///< from the highest start to the table [m]
   std::optional<double> start_area;  ///< [m]
 };
+
+/// Whether letters can be asked of a track: of a certificate's, and of any that tells of its hill or names the rules of in-runs.
+bool is_in_run(const Design& design) {
+  if (design.centerline.kind == CenterlineKind::in_run || design.hill.size) return true;
+  constexpr std::string_view kRules = "fis-in-run";  // and fis-in-run-circle
+  const auto& sets = design.rules.sets;
+  return sets && std::any_of(sets->begin(), sets->end(),
+                             [&](const std::string& set) { return set.starts_with(kRules); });
+}
 
 bool is_straight(const Centerline& track, double from, double to) {
   constexpr double kStraight = 1e-12;  // [1/m]
@@ -165,13 +176,14 @@ void measure_grooves(const Design& design, Measurements& measurements) {
 
 void measure_in_run(const Design& design, const Track& track, Measurements& measurements) {
   const HillDesign& hill = design.hill;
-  if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
+  const bool in_run = is_in_run(design);
+  if (in_run) {
     set_or_ask(measurements, "hill_size", hill.size, "hill: {size: 142 m}, HS of the certificate");
     set_or_ask(measurements, "construction_point", hill.construction_point,
                "hill: {construction_point: 125 m}, w of the certificate");
     set_or_ask(measurements, "hill_height", hill.height, "hill: {height: 62 m}, zU of the certificate");
   }
-  if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
+  if (in_run) {
     measure_letters(design, track, measurements);
     measure_grooves(design, measurements);
   }
@@ -183,7 +195,7 @@ void measure_in_run(const Design& design, const Track& track, Measurements& meas
     }
   }
   // After the gates, whose load is that of the hill.
-  if (design.centerline.kind == CenterlineKind::in_run || hill.size) {
+  if (in_run) {
     measure_load(design, track.centerline->slope_angle(track.centerline->length()), measurements);
   }
 }

@@ -68,7 +68,7 @@ void measure_shape(const Track& track, Measurements& measurements) {
   const Extreme crest = highest_along(centerline, [&](double s) { return -curvature(s); });
   measurements.set("smallest_valley_radius", radius_of(valley.value), valley.at);
   measurements.set("smallest_crest_radius", radius_of(crest.value), crest.at);
-  measurements.set("least_curvature", -crest.value, crest.at);
+  measurements.set("least_curvature", 0.0 - crest.value, crest.at);  // never -0
 }
 
 void measure_rides(const Track& track, Measurements& measurements) {

@@ -152,12 +152,12 @@ void check_obstacles(const Limits& limits, Checker& check) {
 
 namespace {
 
-/// @param searched  whether a track is to be found; one that is given leads where it leads
+/// @param searched  whether a track is to be found; one that is given leads where it leads, whatever it was found for
 void require_sound(const Problem& problem, bool searched) {
   Checker check;
   if (searched) check_ends(problem, check);
   check_body(problem, check);
-  check_objective(problem, check);
+  if (searched) check_objective(problem, check);
   const Limits& limits = problem.limits;
   for (LimitFault& fault : limit_faults(limits)) check.add(std::move(fault.issue));
   check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,

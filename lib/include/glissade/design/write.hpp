@@ -2,6 +2,7 @@
 
 #include "glissade/design/design.hpp"
 
+#include <filesystem>
 #include <string>
 
 namespace glissade {
@@ -14,5 +15,10 @@ namespace glissade {
 ///   the very same value.
 /// @return UTF-8 where the design's texts are, ending in a newline
 [[nodiscard]] std::string design_text(const Design& design);
+
+/// A design that is to be written to another file than it was read from: what it names (points, sets of rules) is then
+/// seen from there.
+/// @param file  becomes Design::file
+[[nodiscard]] Design moved_to(Design design, const std::filesystem::path& file);
 
 }  // namespace glissade
