@@ -449,17 +449,26 @@ TEST_CASE(
   problem.limits.highest_normal_load = 14.0;
   problem.limits.slope_angle.highest = 0.8;
   problem.limits.smallest_valley_radius = 5.0;
-  std::stop_source source;
-  const Progress ask = [&](std::string_view stage, std::optional<double>) {
-    if (stage == "finer track") source.request_stop();
-  };
-  const Optimum early = optimize(problem, {}, source.get_token(), ask);
-  INFO(early.report.brief());
-  CHECK(early.report.status == OptimizeStatus::feasible_not_converged);
-  CHECK(early.report.message == "stopped: the best track so far");
-  REQUIRE(early.centerline);
-  CHECK(referee::judge_track(problem, early.centerline, kReferee).worst <= kKept);
-  CHECK(early.report.travel_time >= optimize(problem).report.travel_time * (1.0 - 1e-6));
+  const Optimum whole = optimize(problem);
+  REQUIRE(whole.report.status == OptimizeStatus::optimal);
+  // Each step of a search, those in which the track stands already among them.
+  for (const std::string_view step : {"finer track", "referee", "prices"}) {
+    INFO(step);
+    std::stop_source source;
+    const Progress ask = [&](std::string_view stage, std::optional<double>) {
+      if (stage == step) source.request_stop();
+    };
+    const Optimum early = optimize(problem, {}, source.get_token(), ask);
+    INFO(early.report.brief());
+    CHECK(source.stop_requested());
+    CHECK(early.report.ended_early);
+    CHECK(early.report.status == OptimizeStatus::feasible_not_converged);
+    CHECK(early.report.message == "stopped: the best track so far");
+    REQUIRE(early.centerline);
+    CHECK(referee::judge_track(problem, early.centerline, kReferee).worst <= kKept);
+    CHECK(early.report.travel_time >= whole.report.travel_time * (1.0 - 1e-6));
+    CHECK(early.report.evaluations < whole.report.evaluations);
+  }
 }
 
 }  // namespace random_limits_test

@@ -48,13 +48,17 @@ TEST_CASE("a request to stop is met by a search, and ends a build that is past i
     return build(design, place.path(), context);
   };
   for (const char* const objective : {"travel_time", "least_wear"}) {
-    INFO(objective);
-    const TempDir place;
-    const Build early = built_when(place, "referee", objective);
-    CHECK(early.track.search);
-    CHECK_FALSE(std::filesystem::is_empty(place.path()));
-    // What wears least is not held against a fastest track that nothing looked for.
-    CHECK_FALSE(early.track.fastest_within);
+    for (const char* const step : {"finer track", "referee", "prices"}) {
+      INFO(objective << ", " << step);
+      const TempDir place;
+      const Build early = built_when(place, step, objective);
+      REQUIRE(early.track.search);
+      CHECK(early.track.search->ended_early);
+      CHECK(early.track.search->status == OptimizeStatus::feasible_not_converged);
+      CHECK_FALSE(std::filesystem::is_empty(place.path()));
+      // What wears least is not held against a fastest track that nothing looked for.
+      CHECK_FALSE(early.track.fastest_within);
+    }
   }
   const TempDir other;
   try {
@@ -64,6 +68,33 @@ TEST_CASE("a request to stop is met by a search, and ends a build that is past i
     CHECK(std::string(error.what()).find("interrupted after the search") != std::string::npos);
   }
   CHECK(std::filesystem::is_empty(other.path()));
+}
+
+TEST_CASE("a request to stop that comes in the search that a result is held against is told of the result") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2}\nlimits: {smallest_radius: 3 m, objective: least_wear}\n",
+      "track.yaml");
+  const Track whole = solve(design);
+  REQUIRE(whole.fastest_within);
+  for (const char* const step : {"coarse track", "prices"}) {
+    INFO(step);
+    std::stop_source source;
+    bool second = false;
+    RunContext context;
+    context.stop = source.get_token();
+    context.progress = [&](std::string_view stage, std::optional<double>) {
+      if (stage == "riding the track") second = true;
+      if (second && stage == step) source.request_stop();
+    };
+    const Track early = solve(design, context);
+    CHECK(source.stop_requested());
+    REQUIRE(early.search);
+    CHECK(early.search->ended_early);
+    CHECK(search_problem(design, early));
+    CHECK_FALSE(early.fastest_within);
+    CHECK(early.motion.travel_time() == whole.motion.travel_time());
+  }
 }
 
 TEST_CASE("a design without a cross-section that exports csv alone is built: stations and report") {

@@ -24,6 +24,7 @@
 #include "optimize/search/shifted_bends.hpp"
 #include "optimize/search/smoother_ground.hpp"
 #include "optimize/search/starts.hpp"
+#include "optimize/stopped.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -435,7 +436,8 @@ void carry_places(const ScaledProblem& problem, double from, double to, std::vec
 
 /// Tells of the best track that keeps every limit.
 void tell_track(Course& course, const OptimizeOptions& options, SearchControl& control,
-                OptimizeReport& report) {
+                const Progress& progress, OptimizeReport& report) {
+  if (progress) progress("prices", 0.95);
   PricedLimits priced;
   {
     const Candidate& known = course.best();
@@ -577,7 +579,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     tell_none(std::move(conflict), certain, course.stopped(), report);
     return optimum;
   }
-  tell_track(course, options, control, report);
+  tell_track(course, options, control, progress, report);
   optimum.centerline = course.best().track;
   take_unlimited(problem, options, optimum);
   take_ramp(problem, options, optimum);
@@ -622,16 +624,9 @@ void meet_finish(const Problem& problem, double tolerance, Optimum& optimum) {
   optimum.report.checks = std::move(judgement.checks);
 }
 
-}  // namespace
-}  // namespace optimizer
-
-Optimum optimize(const Problem& given, const OptimizeOptions& options, const std::stop_token& stop,
-                 const Progress& progress) {
-  using namespace optimizer;
-  require_searchable(given);
-  require_valid(options);
-  const Problem problem = with_mean_slope_allowed(with_true_changes(given), options.limit_tolerance);
-  require_passable_in_order(problem);
+/// optimize() of a problem that is sound, by the objective.
+Optimum searched_by_objective(const Problem& problem, const OptimizeOptions& options,
+                              const std::stop_token& stop, const Progress& progress) {
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
   if (problem.objective.kind == ObjectiveKind::least_peak_wear)
     return least_peak(problem, options, stop, progress);
@@ -644,6 +639,22 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
   optimum.report.iterations = control.rounds;
   optimum.report.evaluations = control.evaluations;
   optimum.report.seconds = patience.seconds();
+  return optimum;
+}
+
+}  // namespace
+}  // namespace optimizer
+
+Optimum optimize(const Problem& given, const OptimizeOptions& options, const std::stop_token& stop,
+                 const Progress& progress) {
+  using namespace optimizer;
+  require_searchable(given);
+  require_valid(options);
+  const Problem problem = with_mean_slope_allowed(with_true_changes(given), options.limit_tolerance);
+  require_passable_in_order(problem);
+  Optimum optimum = searched_by_objective(problem, options, stop, progress);
+  // Steps that follow the descents, as pricing, cut themselves short without a word.
+  if (optimum.centerline && stop.stop_requested()) tell_stopped(optimum.report);
   return optimum;
 }
 

@@ -291,6 +291,8 @@ class FreeShape {
       if (given_speed) problem_.limits.exit_speed.lowest = wanted;
       Optimum optimum = optimize(problem_, options, context.stop, context.progress);
       report = std::move(optimum.report);
+      // What a search was stopped at is no answer to how low an in-run may be.
+      if (context.stop.stop_requested()) throw Interrupted({"", "interrupted in the search", "", ""});
       if (!optimum.centerline) throw ConvergenceError({"", report->message, "", ""});
       track = with_table(*optimum.centerline);
       if (!given_speed) break;

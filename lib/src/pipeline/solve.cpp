@@ -16,6 +16,7 @@
 #include "glissade/io/profile_csv.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
+#include "optimize/stopped.hpp"
 #include "pipeline/body.hpp"
 #include "pipeline/extremes.hpp"
 #include "pipeline/friction_range.hpp"
@@ -325,15 +326,14 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
   design.objective.kind = ObjectiveKind::travel_time;
   try {
     const Optimum optimum = search_that_may_end(design, context);
+    if (context.stop.stop_requested()) return {};
     const Motion motion(optimum.centerline, body_of(design), design.gravity);
     if (!motion.arrived()) return {};
     FastestWithin fastest{motion.travel_time(), motion.at(motion.distance()).friction_loss};
     if (design.stream) fastest.floor_wear = highest_floor_wear(design, optimum.centerline);
     return fastest;
-  } catch (const Interrupted&) {
-    throw;
   } catch (const Error&) {
-    return {};
+    return {};  // also where it was asked to end before it found a track: the one that is wanted is there
   }
 }
 
@@ -348,13 +348,15 @@ Track solve_settled(const Design& design, const RunContext& context) {
     return ride(design, make_centerline(design), context);
   if (!searched) return ride_fastest(design, context);
   Optimum optimum = search_that_may_end(design, context);
-  const bool has_met_request = context.stop.stop_requested();
+  const bool has_met_request = optimum.report.ended_early && context.stop.stop_requested();
   if (context.progress) context.progress("riding the track", {});
   Track track = ride(design, std::move(optimum.centerline), context);
   if (context.stop.stop_requested() && !has_met_request)
     throw Interrupted({design.file, "interrupted after the search", "", ""});
   track.search = std::move(optimum.report);
   track.fastest_within = fastest_within(design, context);
+  // It may have been that second search that was asked to end.
+  if (context.stop.stop_requested()) optimizer::tell_stopped(*track.search);
   return track;
 }
 

@@ -87,6 +87,7 @@ std::optional<Found> finished_on(const ScaledProblem& problem, const MeshTrack& 
 /// What limits carry at the optimum on a finer mesh. @return none where it does not arrive there
 std::optional<Found> on_finer_mesh(const ScaledProblem& problem, const Found& found, const MeshTrack& finer,
                                    const OptimizeOptions& options, SearchControl& control) {
+  if (control.stop()) return std::nullopt;  // none of its programs would be looked at
   if (auto near = approximated(problem, finer.mesh, finer.z, found.rows->margins(), control, found))
     return near;
   return finished_on(problem, finer, found, options, control);
