@@ -34,7 +34,8 @@ struct Problem {
 ///         objective here, limits in limit_catalogue() and Limits
 void require_valid(const Problem& problem);
 
-/// What a track that is given can be held against: as require_valid(), but for the ends. It leads where it leads, up or down.
+/// What a track that is given can be held against: as require_valid(), but for ends and objective. It leads where
+/// it leads, up or down, whatever it was found for.
 /// @throws InputError as require_valid()
 void require_judgeable(const Problem& problem);
 
