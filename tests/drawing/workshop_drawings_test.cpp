@@ -224,6 +224,30 @@ TEST_CASE(
   CHECK(cuts.find(",tube 60 x 60 x 4 mm\n") != std::string::npos);
 }
 
+TEST_CASE("a flat bar's row and sheet tell its section and length, and no edge that is cut from a sheet") {
+  Workshop workshop;
+  workshop.name = "flat bar";
+  const PlaneRegion region{
+      rectangle({0.0, 0.0}, {2.0, 0.05}), {}, {{{0.03, 0.025}, 7e-3}, {{1.97, 0.025}, 7e-3}}};
+  workshop.parts.push_back(testing::shop_part(1, "brace", Prism{region, 0.006}));
+  workshop.parts[0].pattern = FlatPattern{region, {}, {}, {}, {}, 0.0};
+  workshop.parts[0].thickness = 0.006;
+  workshop.parts[0].bought_in = true;
+  workshop.parts[0].flat_bar = true;
+  const std::string cuts = cut_list_csv(workshop);
+  INFO(cuts);
+  CHECK(cuts.find("\n1,brace,S235,6,1,2000,50,,2,,") != std::string::npos);
+  CHECK(cuts.find(",yes,flat bar 50 x 6 mm\n") != std::string::npos);
+  std::string texts;
+  for (const Sheet& sheet : drawing_set(workshop)) {
+    for (const DrawnText& text : sheet.texts) texts += text.text + "\n";
+  }
+  INFO(texts);
+  CHECK(texts.find("flat bar 50 x 6 mm\n") != std::string::npos);
+  CHECK(texts.find("2000 mm of bar\n") != std::string::npos);
+  CHECK(texts.find("cut edge") == std::string::npos);
+}
+
 TEST_CASE(
     "an angle's row tells the straight bar that it takes, its sheet both legs and how its ends are cut") {
   Workshop workshop;

@@ -145,6 +145,83 @@ TEST_CASE("bar pieces: tubes and flat bars of trestles are cut to what they come
   CHECK(has_note(whole, "Bars longer than the 6 m"));
 }
 
+TEST_CASE("bar pieces: flat bars are as few equal pieces as their stock asks, whatever their measures are") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int run = 0; run < 12; ++run) {
+    PlateOptions options;
+    options.supports.emplace();
+    options.supports->ground = {{0.0, -random.between(6.0, 9.0)}};
+    options.supports->braced_from = 0.5;
+    options.supports->tube = random.between(50e-3, 90e-3);
+    options.split.sheet = {0.7, 0.65};
+    options.split.longest = 0.6;
+    const ChannelMeasures channel{random.between(0.3, 0.6), 0.25, 4e-3};
+    options.split.bar = 100.0;
+    const WorkshopBuild whole = plates(chute(), options, channel);
+    options.split.bar = random.between(0.35, 3.0);
+    CAPTURE(run, channel.width, options.split.bar);
+    const WorkshopBuild cut = plates(chute(), options, channel);
+    std::size_t wanted = 0;
+    double volume = 0.0;
+    for (const ShopPart* const brace : named(whole, "brace")) {
+      CHECK(brace->flat_bar == brace->bought_in);
+      const double length = bounds(brace->pattern->region.outline).width();
+      wanted += brace->quantity() * static_cast<std::size_t>(
+                                        brace->flat_bar ? std::ceil(length / options.split.bar - 1e-9) : 1.0);
+      volume += brace->volume * static_cast<double>(brace->quantity());
+    }
+    std::size_t pieces = 0;
+    for (const ShopPart* const brace : named(cut, "brace")) {
+      INFO(brace->name);
+      CHECK(faults_of(brace->pattern->region).empty());
+      if (brace->flat_bar) CHECK(bounds(brace->pattern->region.outline).width() <= options.split.bar + 1e-9);
+      pieces += brace->quantity();
+      volume -= brace->volume * static_cast<double>(brace->quantity());
+    }
+    CHECK(wanted > 0);
+    CHECK(pieces == wanted);
+    CHECK(std::fabs(volume) < 1e-12);
+    CHECK(!has_note(cut, "Frames, flanges and stiffeners"));
+    CHECK(cut.proof.bolted == whole.proof.bolted);
+  }
+}
+
+TEST_CASE("bar pieces: flat bars are cut from no sheet, and lighter than the heaviest part") {
+  PlateOptions options;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -9.0}};
+  options.supports->braced_from = 0.5;
+  options.split.sheet = {1.5, 1.2};
+  options.split.longest = 0.6;
+  const ChannelMeasures wide{1.0, 0.25, 4e-3};
+  const auto by_sheet = [](const WorkshopBuild& build) {
+    double most = 0.0;
+    for (const ShopMeasurement& one : build.workshop.measured) {
+      if (one.quantity == "part_sheet_share") most = std::max(most, one.in_units());
+    }
+    return most;
+  };
+  const WorkshopBuild whole = plates(chute(), options, wide);
+  CHECK(bounds(part_of(whole, "brace").pattern->region.outline).width() > 1.5);
+  CHECK(by_sheet(whole) <= 1.0);
+  options.split.sheet = {6.0, 3.0};
+  CHECK(!part_of(plates(chute(), options, wide), "brace").bought_in);
+  // Too heavy in one, a brace is flat bar in pieces, whether a sheet takes it or not.
+  options.split.longest = 0.3;
+  options.flanges.wanted = false;
+  options.split.bar = 100.0;
+  const ChannelMeasures light{0.6, 0.05, 1e-3};
+  const double one = part_of(plates(chute(), options, light), "brace").mass;
+  options.split.heaviest = 0.95 * one;
+  for (const Vec2 sheet : {Vec2{1.5, 1.2}, Vec2{0.7, 0.65}}) {
+    options.split.sheet = sheet;
+    const ShopPart brace = part_of(plates(chute(), options, light), "brace");
+    CHECK(brace.flat_bar);
+    CHECK(brace.mass < 0.6 * one);
+  }
+}
+
 TEST_CASE("bar pieces: what is longer than a bar is refused where one piece is asked for") {
   PlateOptions options = with_angles(1.5);
   options.split.longest.reset();

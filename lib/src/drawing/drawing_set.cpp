@@ -223,6 +223,11 @@ std::vector<std::string> facts_of(const ShopPart& part) {
     return facts;
   }
   const PlaneBox box = bounds(pattern.region.outline);
+  if (part.flat_bar) {
+    facts.push_back("flat bar " + mm(box.height()) + " x " + mm(part.thickness) + " mm");
+    facts.push_back(mm(box.width()) + " mm of bar");
+    return facts;
+  }
   facts.push_back("flat " + mm(box.width()) + " x " + mm(box.height()) + " mm");
   const Vec2 least = core::least_size(pattern.region.outline);
   if (least.x * least.y < kWorthTelling * box.width() * box.height())

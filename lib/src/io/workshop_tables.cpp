@@ -71,7 +71,7 @@ double degrees(Angle angle) {
   return clean(angle.degrees());
 }
 
-/// Length along the bar, and its section, of a part that is sawn from a tube or an angle; of others nothing.
+/// Length along the bar, and its section, of a part that is sawn from a tube, an angle or a flat bar; of others nothing.
 struct Bar {
   double length = 0.0;  ///< [m]
   double width = 0.0;   ///< [m]
@@ -87,6 +87,11 @@ Bar bar_of(const ShopPart& part) {
     return {parts::stock_length(*angle), angle->height,
             "angle " + shown(angle->height) + " x " + shown(angle->height) + " x " + shown(angle->thickness) +
                 " mm"};
+  }
+  if (part.flat_bar && part.pattern) {
+    const PlaneBox box = bounds(part.pattern->region.outline);
+    return {box.width(), box.height(),
+            "flat bar " + shown(box.height()) + " x " + shown(part.thickness) + " mm"};
   }
   const auto* const prism = std::get_if<Prism>(&part.body);
   if (prism == nullptr || part.pattern || prism->region.cutouts.empty()) return {};

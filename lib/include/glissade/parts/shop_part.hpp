@@ -209,7 +209,8 @@ struct ShopPart {
   std::vector<Frame> places;                    ///< one a piece, in the frame of the assembly
   bool stands = false;                          ///< of a support, which reaches down to the ground
   bool bought_in = false;                       ///< a bar or fitting that nobody cuts from a sheet
-  std::vector<std::string> files;               ///< of this part alone, below the folder of the build
+  bool flat_bar = false;           ///< of what is bought in: sawn from a flat bar, drilled as its pattern
+  std::vector<std::string> files;  ///< of this part alone, below the folder of the build
 
   [[nodiscard]] std::size_t quantity() const { return places.size(); }
 };

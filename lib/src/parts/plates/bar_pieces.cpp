@@ -218,21 +218,77 @@ void add_tube(const ShopPart& tube, const PlateOptions& options, const std::arra
   note_bar_pieces(options, workshop);
 }
 
-void add_flat_bar(const ShopPart& bar, const PlateOptions& options, const std::array<double, 3>& colour,
-                  Workshop& workshop) {
+namespace {
+
+/// What of a flat bar along x lies between two square cuts, in a frame of its own.
+ShopPart piece_of_flat(const ShopPart& bar, const Span& along, std::size_t index, std::size_t count) {
+  const PlaneRegion& whole = bar.pattern->region;
+  const PlaneBox box = bounds(whole.outline);
+  const Vec2 corner{along.from, box.low.y};
+  PlaneRegion region{rectangle({}, {along.to - along.from, box.height()}), {}, {}};
+  for (const Circle& hole : whole.holes) {
+    if (hole.centre.x > along.from && hole.centre.x < along.to)
+      region.holes.push_back({hole.centre - corner, hole.radius});
+  }
+  ShopPart piece = bar;
+  piece.name += strip_letter(index, count);
+  piece.pattern = FlatPattern{};
+  piece.pattern->region = region;
+  piece.body = Prism{std::move(region), std::get<Prism>(bar.body).depth};
+  for (Frame& place : piece.places) place.origin = place.to_space({corner.x, corner.y, 0.0});
+  set_number_place(*piece.pattern, bounds(piece.pattern->region.outline));
+  weigh(piece);
+  return piece;
+}
+
+/// A flat bar in so many pieces as long as each other; none where a cut comes near a hole, or a piece is too heavy.
+std::optional<std::vector<ShopPart>> flat_pieces(const ShopPart& bar, std::size_t count,
+                                                 const PlateOptions& options) {
   const PlaneBox box = bounds(bar.pattern->region.outline);
-  if (box.width() > options.split.bar + kRounding && !options.split.allowed)
-    refuse(bar, box.width(), bar.mass, options);
-  // A flat bar is a sheet as wide as it is.
-  PlateOptions stock = options;
-  stock.split.sheet = {options.split.bar, box.height()};
-  stock.split.margin = 0.0;
-  stock.split.frames = 1;
-  const double middle = 0.5 * (box.low.y + box.high.y);
-  const ArcPath line{{{{box.high.x, middle}, 0.0}, {{box.low.x, middle}, 0.0}}, false};
-  const std::size_t before = workshop.parts.size();
-  add_in_pieces(bar, line, false, stock, colour, workshop);
-  if (workshop.parts.size() > before + 1) note_bar_pieces(options, workshop);
+  const auto cut = [&](std::size_t k) {
+    return box.low.x + box.width() * static_cast<double>(k) / static_cast<double>(count);
+  };
+  const double off = 2.0 * hole_edge_diameters(options.shop);  // radii
+  std::vector<ShopPart> pieces;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Span along{cut(k), cut(k + 1)};
+    for (const Circle& hole : bar.pattern->region.holes) {
+      if (k > 0 && std::fabs(hole.centre.x - along.from) < off * hole.radius) return std::nullopt;
+    }
+    pieces.push_back(piece_of_flat(bar, along, k, count));
+    if (is_too_heavy(pieces.back(), options.split)) return std::nullopt;
+  }
+  return pieces;
+}
+
+}  // namespace
+
+void add_flat_bar(ShopPart bar, const PlateOptions& options, const std::array<double, 3>& colour,
+                  Workshop& workshop) {
+  bar.bought_in = true;
+  bar.flat_bar = true;
+  const SplitOptions& split = options.split;
+  const double length = bounds(bar.pattern->region.outline).width();
+  const bool heavy = is_too_heavy(bar, split);
+  if (!heavy && length <= split.bar + kRounding) {
+    add_part(workshop, std::move(bar), colour);
+    return;
+  }
+  if (!split.allowed) refuse(bar, length, bar.mass, options);
+  const auto least = static_cast<std::size_t>(std::min(std::ceil(length / split.bar - kRounding), 1e3));
+  for (std::size_t count = std::max<std::size_t>(2, least); count <= kMostPieces; ++count) {
+    auto pieces = flat_pieces(bar, count, options);
+    if (!pieces) continue;
+    for (ShopPart& piece : *pieces) add_part(workshop, std::move(piece), colour);
+    note_bar_pieces(options, workshop);
+    return;
+  }
+  SplitOptions any = split;
+  any.heaviest.reset();
+  PlateOptions of_any = options;
+  of_any.split = any;
+  const auto cut_into = [&](std::size_t count) { return flat_pieces(bar, count, of_any); };
+  refuse(bar, length, lightest_pieces(cut_into).value_or(bar.mass), options);
 }
 
 void note_bar_pieces(const PlateOptions& options, Workshop& workshop) {

@@ -23,8 +23,10 @@ namespace glissade::parts {
 void add_tube(const ShopPart& tube, const PlateOptions& options, const std::array<double, 3>& colour,
               Workshop& workshop);
 
-/// Adds a plate that is a flat bar along x of its frame, as above.
-void add_flat_bar(const ShopPart& bar, const PlateOptions& options, const std::array<double, 3>& colour,
+/// Adds a rectangle along x of its frame as a flat bar, in equal pieces where it is longer than the stock.
+/// @param bar  with a pattern, and a Prism of it as its body
+/// @throws InputError as above
+void add_flat_bar(ShopPart bar, const PlateOptions& options, const std::array<double, 3>& colour,
                   Workshop& workshop);
 
 /// Says that bars are pieces, once.

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <variant>
 
 namespace glissade::parts {
 namespace {
@@ -133,7 +132,7 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
     measure_holes(part, facts);
     measure_off_bends(part, facts);
     measure_frame_slots(part, facts);
-    if (std::holds_alternative<AngleBar>(part.body)) continue;  // cut from no sheet
+    if (part.bought_in) continue;  // cut from no sheet
     const PlaneBox box = bounds(part.pattern->region.outline);
     const auto [shorter, longer] = std::minmax({box.width(), box.height()});
     facts.of(part, "part_sheet_share", longer, std::max(sheet.x, sheet.y));

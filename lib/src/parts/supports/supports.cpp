@@ -338,10 +338,9 @@ void add_braces(const Shell& shell, const Trestle& trestle, const Measures& meas
       // x, y and the outward normal are right-handed on one side, left-handed on the other.
       Frame place{origin, x, side > 0.0 ? y : -1.0 * y, run};
       ShopPart brace = plate_part(shell, "brace_" + number, region, kBrace, {place});
-      // Flat bar where no sheet is as long.
-      brace.bought_in = bounds(region.outline).width() > longest;
-      if (brace.bought_in)
-        add_flat_bar(brace, shell.options, kSupportColour, shell.workshop);
+      // Flat bar where no sheet is as long, or where it has to be pieces.
+      if (bounds(region.outline).width() > longest || is_too_heavy(brace, shell.options.split))
+        add_flat_bar(std::move(brace), shell.options, kSupportColour, shell.workshop);
       else
         add_part(shell.workshop, std::move(brace), kSupportColour);
     }
