@@ -90,8 +90,13 @@ Unfolded unfolded(const std::vector<Vec3>& base, const std::vector<Vec3>& upper)
 }  // namespace
 
 TEST_CASE("widths: a wall laid flat triangle by triangle is its pattern") {
+  const double t = 4e-3;
+  PlateOptions options = in_one_piece();
+  // Bends about a neutral fibre in the middle, as sharp as they may be, take next to nothing of the flat.
+  options.bend.inner_radius = t;
+  options.bend.k_factor = 0.5;
   for (const bool left : {true, false}) {
-    const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, 4e-3}, in_one_piece());
+    const WorkshopBuild build = plates_of(chute(), section::UChannel{kWidening, 0.25, t}, options);
     const ShopPart& wall = part_of(build, left ? "left_wall" : "right_wall");
     const auto& body = std::get<SweptBody>(wall.body);
     // Corners: face_from, face_to, back_to, back_from.
@@ -121,7 +126,13 @@ TEST_CASE("widths: a wall laid flat triangle by triangle is its pattern") {
                         std::fabs(norm(low - over) - norm(flat.base[k] - flat.upper[0])),
                         std::fabs(norm(high - over) - norm(flat.upper[k] - flat.upper[0]))});
     }
-    CHECK(worst < 2e-6);
+    double taken = 0.0;
+    for (const BendLine& bend : wall.pattern->bends) {
+      const double half = 0.5 * bend.angle.radians();
+      taken += 2.0 * (t + 0.5 * t) * (std::tan(half) - half);
+    }
+    CHECK(taken < 1e-5);
+    CHECK(worst < 2e-6 + taken);
     CHECK(wall.pattern->bends.size() == 3);
   }
 }
@@ -182,6 +193,97 @@ TEST_CASE(
        plates_of(chute(), section::UChannel{WidthLaw(0.4), 0.25, 4e-3}).workshop.parts) {
     write_step(dir.path() / "part.step", part);
     CHECK(read_step_facts(dir.path() / "part.step").solids.front().splines == 0);
+  }
+}
+
+TEST_CASE("widths: where the width begins or ends to change rolled walls are pressed about the punch") {
+  const WidthLaw widths(std::vector<WidthAt>{{1.0, 0.6}, {2.5, 0.4}});
+  const double t = 4e-3;
+  const section::UChannel channel{widths, 0.2, t};
+  const double angle = std::atan(0.1 / 1.5);  // of one side
+  PlateOptions options = in_one_piece();
+  options.flanges.wanted = false;
+  const StraightLine line(Endpoints{4.0, 3.0});
+  for (const double radius : {t, 10e-3, 40e-3}) {
+    CAPTURE(radius);
+    options.bend.inner_radius = radius;
+    const WorkshopBuild build = plates_of(line, channel, options);
+    const ShopPart& wall = part_of(build, "left_wall");
+    REQUIRE(wall.pattern->bends.size() == 2);
+    for (const BendLine& bend : wall.pattern->bends) {
+      CHECK(bend.inner_radius == radius);
+      CHECK(bend.angle.radians() == Approx(angle).epsilon(1e-9));
+    }
+    CHECK(wall.pattern->bends[0].up != wall.pattern->bends[1].up);
+    // Sides in the middle of the thickness, less what two bends take of them: (r + K t) a for 2 (r + t/2) tan(a/2).
+    const double side = 5.0 - 1.5 + math::hypot(1.5, 0.1);
+    const double taken =
+        2.0 * (radius + 0.5 * t) * std::tan(0.5 * angle) - (radius + k_factor(radius, t) * t) * angle;
+    CHECK(taken > 0.0);
+    CHECK(bounds(wall.pattern->region.outline).width() == Approx(side - 2.0 * taken).margin(1e-9));
+    double sum = 0.0;
+    std::vector<double> places;
+    for (const BendStep& step : build.workshop.bends) {
+      if (step.part != wall.number) continue;
+      CHECK(step.radius == radius);
+      CHECK(step.length == 0.0);
+      places.push_back(step.distance);
+      CHECK(step.hit == static_cast<int>(places.size()));
+      sum += step.angle.radians();
+      CHECK(step.sum.radians() == Approx(sum).margin(1e-12));
+    }
+    REQUIRE(places.size() == 2);
+    CHECK(sum == Approx(0.0).margin(1e-12));
+    CHECK(places[0] == Approx(1.0 - 0.5 * taken).margin(2e-6));
+    CHECK(places[1] - places[0] == Approx(math::hypot(1.5, 0.1) - taken).margin(2e-6));
+    // Judged as bends; nothing is rolled on a straight track.
+    std::size_t bends = 0;
+    for (const ShopMeasurement& one : build.workshop.measured) {
+      CHECK(one.quantity != "rolling_radius_thicknesses");
+      if (one.quantity != "bend_radius_thicknesses") continue;
+      CHECK(one.in_units() == Approx(radius / t));
+      ++bends;
+    }
+    CHECK(bends >= 2);
+  }
+  options.bend.inner_radius = 3e-3;
+  CHECK(refusal_of([&] {
+          return plates_of(line, channel, options);
+        }).find("bend.inner_radius|inner_radius: 3 mm is less than the plate's thickness") == 0);
+  // Where the width changes from end to end nothing is folded.
+  const WidthLaw whole(std::vector<WidthAt>{{0.0, 0.6}, {5.0, 0.4}});
+  CHECK(plates_of(line, section::UChannel{whole, 0.2, t}, options).workshop.bends.empty());
+}
+
+TEST_CASE(
+    "widths: of a bent track's walls, what is rolled is judged by its radius, what is pressed by the punch") {
+  PlateOptions options;
+  options.bend.inner_radius = 9e-3;
+  const WidthLaw widths(std::vector<WidthAt>{{2.0, 0.4}, {4.0, 0.6}});
+  for (const section::Measures& measures :
+       {section::Measures(section::UChannel{widths, 0.2, 3e-3}),
+        section::Measures(section::Trapezoid{widths, 0.2, Angle::from_degrees(25.0), 3e-3})}) {
+    INFO(section::kind(measures));
+    const WorkshopBuild build = plates_of(chute(), measures, options);  // edges add up
+    std::size_t pressed = 0;
+    for (const ShopMeasurement& one : build.workshop.measured) {
+      if (one.quantity == "rolling_radius_thicknesses") CHECK(one.value > 50e-3);
+      if (one.quantity != "bend_radius_thicknesses") continue;
+      CHECK(one.in_units() == Approx(3.0));
+      ++pressed;
+    }
+    CHECK(pressed >= 4);
+    for (const ShopPart* const wall : named(build, "wall")) {
+      double before = 0.0;
+      double sum = 0.0;
+      for (const BendStep& step : build.workshop.bends) {
+        if (step.part != wall->number) continue;
+        CHECK(step.distance >= before);
+        before = step.distance;
+        sum += step.angle.radians();
+        CHECK(step.sum.radians() == Approx(sum).margin(1e-12));
+      }
+    }
   }
 }
 

@@ -25,8 +25,9 @@ struct Strip {
   double edge_from = 0.0;  ///< at the side of `face_from` [m]
   double edge_to = 0.0;
   std::optional<double> edge_mismatch =
-      std::nullopt;     ///< of one whose edges are not those of the section [m]
-  double sprung = 0.0;  ///< of a bent one that springs(): the largest angle between its flats, else 0 [rad]
+      std::nullopt;      ///< of one whose edges are not those of the section [m]
+  double pressed = 0.0;  ///< of a rolled one, Development::pressed [m]
+  double sprung = 0.0;   ///< of a bent one that springs(): the largest angle between its flats, else 0 [rad]
 };
 
 /// A corner of the flats, or an end of them.

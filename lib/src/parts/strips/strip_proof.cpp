@@ -128,8 +128,8 @@ Wanted wanted_of(const StripJob& job, const std::vector<Strip>& strips, const st
       from += edge(plate.middle_from());
       to += edge(plate.middle_to());
     }
-    wanted.edge_mismatch =
-        std::max({wanted.edge_mismatch, std::fabs(from - strip.edge_from), std::fabs(to - strip.edge_to)});
+    wanted.edge_mismatch = std::max({wanted.edge_mismatch, std::fabs(from - strip.pressed - strip.edge_from),
+                                     std::fabs(to - strip.pressed - strip.edge_to)});
   }
   return wanted;
 }

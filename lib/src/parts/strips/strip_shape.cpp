@@ -303,6 +303,48 @@ Vec2 on_level(const StripJob& job, const SectionPlate& plate, const Span& span, 
 
 namespace {
 
+/// Where the width begins or ends to change: a bend of the flat, pressed along its ruling.
+struct WidthFold {
+  std::size_t place = 0;  ///< of the edges, where it lies
+  double angle = 0.0;
+  bool up = true;
+  double sine_before = 1.0;  ///< of the angles between the edges on both sides and the ruling
+  double sine_after = 1.0;
+};
+
+/// Takes from the flat what a bend does not need of it: both edges get as much shorter on both sides, arcs turn as they did.
+/// @param half  of what is taken, square to the fold [m]
+void press(const WidthFold& fold, double half, Development& strip) {
+  constexpr double kRoom =
+      0.5;  // taste: of an arc that is too short for its share; the one beyond the fold gives the rest
+  const std::size_t k = fold.place;
+  const auto chord = [&](std::size_t i) { return strip.base[i + 1] - strip.base[i]; };
+  const double whole = half / fold.sine_before + half / fold.sine_after;
+  const double before = std::min(half / fold.sine_before, kRoom * norm(chord(k - 1)));
+  const double after = std::min(whole - before, kRoom * norm(chord(k)));
+  const std::array<double, 2> taken = {std::min(whole - after, kRoom * norm(chord(k - 1))), after};
+  for (const std::size_t side : {0U, 1U}) {
+    const std::size_t i = k - 1 + side;
+    const double turned = 0.5 * strip.turns[i];
+    const double share = std::fabs(turned) < 1e-9 ? 1.0 : math::sin(turned) / turned;
+    const Vec2 shift = (-share * taken[side] / norm(chord(i))) * chord(i);
+    for (std::size_t place = i + 1; place < strip.base.size(); ++place) {
+      strip.base[place] = strip.base[place] + shift;
+      strip.upper[place] = strip.upper[place] + shift;
+    }
+    strip.pressed += taken[side];
+  }
+}
+
+void press_folds(const StripJob& job, const std::vector<WidthFold>& folds, Development& strip) {
+  const double thickness = job.section.thickness;
+  for (const WidthFold& fold : folds) press(fold, 0.5 * bend_cut(job, thickness, fold.angle), strip);
+  for (const WidthFold& fold : folds) {
+    strip.folds.push_back({strip.base[fold.place], strip.upper[fold.place], Angle::from_radians(fold.angle),
+                           inner_radius_of(job, thickness), fold.up});
+  }
+}
+
 Development developed_widening(const StripJob& job, const SectionPlate& plate,
                                const std::vector<StripArc>& arcs) {
   const Vec2 nominal = plate.middle_from() - plate.middle_to();
@@ -311,6 +353,8 @@ Development developed_widening(const StripJob& job, const SectionPlate& plate,
   Vec2 at;
   double ruling = 0.0;  // heading of it on the flat
   double before = 0.0;  // taper of the arc before
+  double psi_before = 0.0;
+  std::vector<WidthFold> folds;
   const auto put = [&](double width) {
     const auto [sine, cosine] = math::sine_cosine(ruling);
     strip.base.push_back(at);
@@ -339,18 +383,20 @@ Development developed_widening(const StripJob& job, const SectionPlate& plate,
           (1.0 + dot(one_side, other)) / (math::hypot(1.0, norm(one_side)) * math::hypot(1.0, norm(other)));
       const double angle = math::acos(std::clamp(cosine, -1.0, 1.0));
       if (angle > kNoFold && std::fabs(aside - before) > kNoFold) {
-        strip.folds.push_back({strip.base.back(), strip.upper.back(), Angle::from_radians(angle),
-                               job.section.thickness, half * (aside - before) < 0.0});
+        folds.push_back({strip.turns.size(), angle, half * (aside - before) < 0.0, math::sin(psi_before),
+                         math::sin(psi)});
       }
     }
     const double heading = ruling - psi;
     at = at + side.step(heading);
     const double turn = side.turned(1.0);
     strip.turns.push_back(turn);
-    ruling = heading + turn + angle_to_ruling(across(one.lean_to), aside);
+    psi_before = angle_to_ruling(across(one.lean_to), aside);
+    ruling = heading + turn + psi_before;
     before = aside;
     put(norm(across(one.lean_to)));
   }
+  press_folds(job, folds, strip);
   return strip;
 }
 

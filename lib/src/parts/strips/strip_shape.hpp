@@ -81,7 +81,9 @@ struct Development {
   std::vector<Vec2> base;   ///< at the side of `face_to`
   std::vector<Vec2> upper;  ///< at the side of `face_from`
   std::vector<double> turns;
-  std::vector<BendLine> folds;  ///< where a width begins or ends to change
+  std::vector<BendLine> folds;  ///< where a width begins or ends to change, pressed along rulings
+  double pressed =
+      0.0;  ///< by how much both edges are shorter than in the body, where folds are without a radius [m]
   std::vector<Circle> holes = {};
   std::vector<ArcPath> cutouts = {};
 };

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -27,8 +28,9 @@ double radius_of(double curvature) {
 }
 
 /// Radii to which the arcs of a strip are rolled, and the steps that do it; none of a plate that bends by itself.
+/// @param lengths  of the arcs along the edge from which steps count, on the flat; empty: those along the track at its height
 std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate, const Span& span,
-                                 std::vector<BendStep>& steps) {
+                                 const std::vector<double>& lengths, std::vector<BendStep>& steps) {
   constexpr double kElastic = 1000.0;  // thicknesses: half of that is where structural steel yields
   const Vec2 across = plate.middle_from() - plate.middle_to();
   const double level = std::fabs(across.x) / norm(across);  // sin b
@@ -43,7 +45,7 @@ std::vector<double> rolled_radii(const StripJob& job, const SectionPlate& plate,
     const TrackArc& arc = one.arc;
     // The normal curvature of the cone; upright plates are not rolled at all.
     const double curvature = level < 1e-9 ? 0.0 : level * arc.curvature / (1.0 - arc.curvature * middle);
-    const double length = arc.length * (1.0 - arc.curvature * edge);
+    const double length = lengths.empty() ? arc.length * (1.0 - arc.curvature * edge) : lengths[radii.size()];
     const double turned = level * arc.curvature * arc.length;
     sum += turned;
     radii.push_back(radius_of(curvature));
@@ -208,9 +210,44 @@ Strip worked_strip(const StripJob& job, const PlateOfUnit& of, const Span& span,
   strip.span = span;
   const SheetCut cut = worked_cut(job, of, span, edges, work);
   double mismatch = 0.0;
-  strip.part = sheet_part(job, cut, rolled_radii(job, plate, span, strip.steps), mismatch);
+  strip.part = sheet_part(job, cut, rolled_radii(job, plate, span, {}, strip.steps), mismatch);
   strip.edge_mismatch = mismatch;
   return strip;
+}
+
+/// The edge from which steps of the schedule count.
+const std::vector<Vec2>& counted_edge(const SectionPlate& plate, const Development& flat) {
+  return plate.ends_at_floor() ? flat.base : flat.upper;
+}
+
+/// Of its arcs.
+std::vector<double> lengths_along(const SectionPlate& plate, const Development& flat) {
+  const std::vector<Vec2>& edge = counted_edge(plate, flat);
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < flat.turns.size(); ++i)
+    lengths.push_back(length_along({edge[i], edge[i + 1]}, {flat.turns[i]}));
+  return lengths;
+}
+
+/// Hits of the press where the width begins or ends to change, in their places among the arcs that are rolled.
+void add_folds(const SectionPlate& plate, const Development& flat, std::vector<BendStep>& steps) {
+  if (flat.folds.empty()) return;
+  const std::vector<double> lengths = lengths_along(plate, flat);
+  for (const BendLine& fold : flat.folds) {
+    const auto at = std::find(flat.base.begin(), flat.base.end(), fold.from) - flat.base.begin();
+    const double reached = std::accumulate(lengths.begin(), lengths.begin() + at, 0.0);
+    const Angle angle = fold.up ? fold.angle : Angle::from_radians(-fold.angle.radians());
+    steps.push_back({0, 0, reached, 0.0, angle, angle, fold.inner_radius, 0.0});
+  }
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const BendStep& a, const BendStep& b) { return a.distance < b.distance; });
+  double sum = 0.0;
+  int hit = 0;
+  for (BendStep& step : steps) {
+    sum += step.angle.radians();
+    step.sum = Angle::from_radians(sum);
+    step.hit = ++hit;
+  }
 }
 
 /// @param work  beside a width that changes
@@ -224,15 +261,12 @@ Strip strip_of(const StripJob& job, const PlateOfUnit& of, const Span& span, con
   strip.span = span;
   strip.edge_to = length_along(flat.base, flat.turns);
   strip.edge_from = length_along(flat.upper, flat.turns);
-  const std::vector<double> radii = rolled_radii(job, plate, span, strip.steps);
-  const std::vector<Vec2>& edge = plate.ends_at_floor() ? flat.base : flat.upper;
-  for (const BendLine& fold : flat.folds) {
-    const auto at = std::find(flat.base.begin(), flat.base.end(), fold.from) - flat.base.begin();
-    const std::vector<double> turns(flat.turns.begin(), flat.turns.begin() + at);
-    const Angle angle = fold.up ? fold.angle : Angle::from_radians(-fold.angle.radians());
-    strip.steps.push_back({0, static_cast<int>(strip.steps.size()) + 1, length_along(edge, turns), 0.0, angle,
-                           angle, fold.inner_radius, 0.0});
-  }
+  strip.pressed = flat.pressed;
+  const bool level = plate.middle_from().y == plate.middle_to().y;
+  const std::vector<double> radii =
+      rolled_radii(job, plate, span,
+                   job.widens() && !level ? lengths_along(plate, flat) : std::vector<double>(), strip.steps);
+  add_folds(plate, flat, strip.steps);
 
   ShopPart& part = strip.part;
   part.name = plate.name;

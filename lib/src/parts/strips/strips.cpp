@@ -12,6 +12,7 @@
 #include "parts/plates/plate_facts.hpp"
 #include "parts/plates/plate_joints.hpp"
 #include "parts/shop/setting_out.hpp"
+#include "parts/shop/shop_facts.hpp"
 #include "parts/shop/workshop_list.hpp"
 #include "parts/strips/bent_strips.hpp"
 #include "parts/strips/flats_line.hpp"
@@ -48,9 +49,27 @@ void list_strips(std::vector<Strip>& strips, Workshop& workshop) {
   }
 }
 
+/// Whether a row of the schedule is a hit of the press: of rolled plates where the width begins or ends to change.
+bool is_pressed(const BendStep& step) {
+  return step.length == 0.0;
+}
+
+/// @throws InputError where the shop does not press as sharply as a rolled plate is folded
+void require_folds(const StripJob& job, const std::vector<Strip>& strips) {
+  const bool folded = std::any_of(strips.begin(), strips.end(), [](const Strip& strip) {
+    return std::any_of(strip.steps.begin(), strip.steps.end(), is_pressed);
+  });
+  if (!folded) return;
+  if (auto issue = too_tight_a_bend(job.section.thickness, job.options)) throw InputError(std::move(*issue));
+}
+
 void measure_strips(const std::vector<Strip>& strips, Workshop& workshop) {
   for (const Strip& strip : strips) {
     for (const BendStep& step : strip.steps) {
+      if (is_pressed(step)) {
+        ShopFacts(workshop).of(strip.part, "bend_radius_thicknesses", step.radius, strip.part.thickness);
+        continue;
+      }
       if (!std::isfinite(step.radius)) continue;
       measure_rolling(
           std::fabs(step.radius), strip.part,
@@ -231,6 +250,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
     require_frame_room(track, build.joints, options.flanges, section.lowest,
                        section.ring ? std::optional(section.highest) : std::nullopt);
   }
+  if (!bent) require_folds(job, strips);
   Workshop& workshop = build.workshop;
   list_strips(strips, workshop);
   set_on_strips(job, bent, flats.get(), build.joints, strips, works, workshop);
