@@ -301,6 +301,43 @@ TEST_CASE("seams of sections go beside openings and their lids, which lie in one
   }
 }
 
+TEST_CASE("seams: a larger sheet never makes impossible what a smaller one holds") {
+  // A floor of 410 mm lies across a sheet of 600 x 300 mm, in units of less than that; so it does on a longer one.
+  PlateOptions options;
+  options.split.sheet = {0.6, 0.3};
+  const std::size_t joints = plates(chute(), options).joints.size();
+  for (const double longer : {0.9, 1.0, 2.0, 6.0}) {
+    options.split.sheet = {longer, 0.3};
+    CHECK(plates(chute(), options).joints.size() == joints);
+  }
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int runs = testing::thorough() ? 12 : 4;
+  for (int run = 0; run < runs; ++run) {
+    const double wide = random.between(0.3, 0.6);
+    const section::Measures sections[] = {
+        section::UChannel{WidthLaw(wide), 0.15, 4e-3}, section::Slab{WidthLaw(wide), 4e-3},
+        section::Trapezoid{WidthLaw(wide), 0.15, Angle::from_degrees(20.0), 4e-3}};
+    const int kind = random.integer(0, 2);
+    const section::Measures& measures = sections[kind];
+    PlateOptions all;
+    if (kind != 1 && random.integer(0, 1) == 0) all.corners.kind = CornerJoint::lap;
+    all.split.sheet = {random.between(0.2, 0.5), random.between(0.12, 0.2)};
+    bool holds = false;
+    std::string last;
+    for (int growth = 0; growth < 7; ++growth) {
+      CAPTURE(run, measures.index(), wide, all.split.sheet.x, all.split.sheet.y, last);
+      const std::string text = refusal_of([&] { return plates_of(chute(), measures, all); });
+      INFO(text);
+      CHECK((text.empty() || !holds));
+      holds = holds || text.empty();
+      last = text;
+      (random.integer(0, 1) == 0 ? all.split.sheet.x : all.split.sheet.y) *= random.between(1.05, 1.6);
+    }
+    CHECK(holds);
+  }
+}
+
 TEST_CASE("seams: what cannot be cut is refused with place, value, bound and a way out") {
   PlateOptions options;
   options.split.widest = 20e-3;

@@ -38,6 +38,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -403,13 +404,52 @@ void require_light(const Workshop& workshop, const SplitOptions& split) {
   if (worst != nullptr) throw_too_heavy(*worst, *split.heaviest, worst->mass, "It is made in one piece.");
 }
 
+/// Of plates that the sheet takes only across, units may be too short for something: then they are strips along it.
+/// @param widest  of the plates, about [m]
+WorkshopBuild across_or_lengthwise(double widest, const PlateOptions& options,
+                                   const std::function<WorkshopBuild(const PlateOptions&)>& make) {
+  try {
+    return make(options);
+  } catch (const InputError&) {
+    constexpr double kLess = 0.8;  // budget: of the sheet's shorter side, from which strips are tried
+    if (!options.split.allowed || widest < kLess * options.split.stock().room().y) throw;
+    PlateOptions strips = options;
+    strips.split.lengthwise = true;
+    try {
+      return make(strips);
+    } catch (const InputError&) {
+      // What the first try says is nearer to what was asked for.
+    }
+    throw;
+  }
+}
+
+/// Of a channel's plates, about.
+double widest_of(const ChannelMeasures& channel, const PlateOptions& options) {
+  const double lap = options.corners.kind == CornerJoint::butt ? 0.0 : options.corners.overlap;
+  return std::max(channel.width, channel.wall_height) + 2.0 * (channel.wall() + lap);
+}
+
+/// Of a section's, about; 0 where there are none, or tubes and troughs alone.
+double widest_of(const section::Measures& measures, const PlateOptions& options) {
+  if (options.round == RoundMake::mitred && mitred_round(measures, options)) return 0.0;
+  const auto section = plate_section(measures, options);
+  if (!section) return 0.0;
+  double widest = 0.0;
+  for (const SectionPlate& plate : section->plates)
+    widest = std::max(widest, norm(plate.face_to - plate.face_from));
+  return section->widths ? widest + section->widths->widest() - section->widths->narrowest() : widest;
+}
+
 WorkshopBuild make_section(const Centerline& track, const section::Measures& measures,
                            const MasterCurveOptions& fit, const PlateOptions& options,
                            const Placement& placement, const Body& body, double gravity) {
   MasterCurve master = fit_arcs(track, fit);
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
   WorkshopBuild build =
-      make_round_or_strips(*master.spline, measures, options, placement, body, gravity, smooth);
+      across_or_lengthwise(widest_of(measures, options), options, [&](const PlateOptions& with) {
+        return make_round_or_strips(*master.spline, measures, with, placement, body, gravity, smooth);
+      });
   build.master = std::move(master);
   require_light(build.workshop, options.split);
   return build;
@@ -424,7 +464,10 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
   if (!problems.empty()) throw InputError(std::move(problems));
   if (follows_flats(channel, options))
     return make_section(track, section_of(channel), fit, options, placement, body, gravity);
-  WorkshopBuild build = make_channel(track, channel, fit, options, placement, body, gravity);
+  WorkshopBuild build =
+      across_or_lengthwise(widest_of(channel, options), options, [&](const PlateOptions& with) {
+        return make_channel(track, channel, fit, with, placement, body, gravity);
+      });
   require_light(build.workshop, options.split);
   return build;
 }

@@ -241,7 +241,8 @@ std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
                   std::max({longer / stock.width, shorter / stock.height, mass}),
                   "sheet: [" + length_up(std::max(longer, stock.width)) + ", " +
                       length_up(std::max(shorter, stock.height)) + "]" +
-                      (mass > 1.0 ? ", heaviest: " + mass_up(part.mass) : std::string())};
+                      (mass > 1.0 ? ", heaviest: " + mass_up(part.mass) : std::string()),
+                  shorter > stock.height && shorter <= stock.width};
   }
   if (mass > 1.0) {
     return Excess{"weighs " + rounded_text(part.mass, 4) + " kg",
@@ -282,7 +283,7 @@ void split_until_it_fits(const SplitOptions& split, double length,
                       "longest: " + length_text(length / 3.0, 2)});
   }
   std::string last;
-  // Where twice as many units have not made what exceeds smaller, no number of them will.
+  // Where twice as many units have not made what exceeds smaller, no number of them will; but for what they may turn.
   double least = std::numeric_limits<double>::infinity();
   double least_at = static_cast<double>(count);
   constexpr double kSafe = 0.8;  // of the count that lengths ask for: ends of units are not even
@@ -300,7 +301,7 @@ void split_until_it_fits(const SplitOptions& split, double length,
     if (found->times < 0.98 * least) {
       least = found->times;
       least_at = whole;
-    } else if (whole >= 2.0 * least_at + 2.0) {
+    } else if (!found->turns && whole >= 2.0 * least_at + 2.0) {
       throw InputError({"split", found->what,
                         "Shorter units do not make it smaller, and " + found->bound + ".",
                         found->way_out + ", or a smaller cross_section"});

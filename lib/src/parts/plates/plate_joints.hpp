@@ -19,6 +19,8 @@ struct Excess {
   std::string bound;
   double times = 1.0;   ///< what may be, of a length or mass that shorter units make smaller
   std::string way_out;  ///< the sheet or the mass that takes it
+  /// Units so short that it lies across the sheet may make it fit, and until they are its measures across stay as they are.
+  bool turns = false;
 };
 [[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
 [[nodiscard]] bool is_too_heavy(const ShopPart& part, const SplitOptions& split);
