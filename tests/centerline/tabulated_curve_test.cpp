@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -114,6 +115,82 @@ TEST_CASE("a table of a curve is that curve, for bodies of any friction") {
       CHECK(is.highest_load().normal_load ==
             Approx(was.highest_load().normal_load).epsilon(1e-6).margin(1e-9));
     }
+  }
+}
+
+namespace {
+
+/// Holds a table against the curve that it was made of, for the body the curve is fastest for.
+void check_ride_from(std::vector<TabulatedPoint> rows, const CenterlinePtr& curve, const Body& body,
+                     double rounding) {
+  const Motion was(curve, body);
+  REQUIRE(was.arrived());
+  const Motion is(std::make_shared<const TabulatedCurve>(std::move(rows)), body);
+  REQUIRE(is.arrived());
+  const double v2 = was.exit_speed() * was.exit_speed();
+  const double energy = body.entry_speed * body.entry_speed + 2.0 * kDefaultGravity * curve->length();
+  const double off = rounding * energy;
+  CHECK(std::fabs(is.exit_speed() * is.exit_speed() - v2) <= 2.0 * kTableAccuracy * v2 + off);
+  CHECK(std::fabs(is.travel_time() - was.travel_time()) <=
+        kTableAccuracy * was.travel_time() + off / (kDefaultGravity * was.exit_speed()));
+  CHECK(is.centerline().length() == Approx(curve->length()).epsilon(kTableAccuracy));
+}
+
+/// Rows at stations as `solve --csv` has them, in coordinates that count from `origin`.
+std::vector<TabulatedPoint> rows_at_stations(const Centerline& curve, double origin) {
+  constexpr int kStations = 400;
+  std::vector<double> stations;
+  for (int i = 0; i <= kStations; ++i) stations.push_back(curve.length() * i / kStations);
+  stations.back() = curve.length();
+  const double shortest = 256.0 * std::numeric_limits<double>::epsilon() * (origin + 2.0 * curve.length());
+  std::vector<TabulatedPoint> rows;
+  for (const double s : places_for_table(curve, stations, shortest)) {
+    const CenterlinePoint at = curve.at(s);
+    rows.push_back({origin + at.x, origin + at.drop, at.slope_angle, s == 0.0 ? HUGE_VAL : at.curvature});
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("tables of fastest tracks next to the limit of what can be reached come back") {
+  for (const double mu : {0.02, 0.3, 2.0}) {
+    for (const double margin : {0.15, 0.05, 0.03, 0.01, 1e-3, 1e-4}) {
+      const Friction friction = Friction::from_coefficient(mu);
+      const auto curve =
+          std::make_shared<const CoulombBrachistochrone>(Endpoints{3.0, 3.0 * mu * (1.0 + margin)}, friction);
+      INFO("friction coefficient " << mu << ", " << margin << " above the limit");
+      std::vector<TabulatedPoint> rows = table_of(*curve);
+      CHECK(rows.size() < 30000);
+      check_ride_from(std::move(rows), curve, {friction, 0.0, 0.0}, kTableRounding);
+      check_ride_from(rows_at_stations(*curve, 0.0), curve, {friction, 0.0, 0.0}, kTableRounding);
+    }
+  }
+}
+
+TEST_CASE("a bend that is lost in the rounding of places is no fault of its rows") {
+  const Friction friction = Friction::from_coefficient(0.1);
+  for (const double margin : {1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    const CoulombBrachistochrone curve({3.0, 0.3 * (1.0 + margin)}, friction);
+    INFO(margin << " above the limit of what can be reached");
+    CHECK(refusal(table_of(curve)) == "accepted");
+    CHECK(refusal(rows_at_stations(curve, 0.0)) == "accepted");
+    CHECK(refusal(rows_at_stations(curve, 4321.0)) == "accepted");
+    const TabulatedCurve table(table_of(curve));
+    CHECK(table.length() == Approx(curve.length()).epsilon(kTableAccuracy));
+    CHECK(table.at(table.length()).slope_angle == Approx(curve.at(curve.length()).slope_angle).margin(1e-9));
+  }
+}
+
+TEST_CASE("a long flight in one stretch is no fault of its rows") {
+  const Friction friction = Friction::from_coefficient(4.83992);
+  const auto curve =
+      std::make_shared<const FlyingStartBrachistochrone>(Endpoints{215.0, 1990.0}, friction, 2.14);
+  REQUIRE(curve->flight_length() > 10.0);
+  for (const double side : {1.0, -1.0}) {
+    std::vector<TabulatedPoint> rows = table_of(*curve);
+    for (TabulatedPoint& row : rows) row.x *= side;
+    CHECK(refusal(rows) == "accepted");
   }
 }
 

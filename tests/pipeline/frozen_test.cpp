@@ -357,6 +357,38 @@ TEST_CASE("sets of rules in files of one's own are found from where a frozen des
   CHECK(read_design(directory / "deep/er/frozen.yaml").rules.in_force == design.rules.in_force);
 }
 
+TEST_CASE(
+    "fastest tracks next to the limit of what can be reached are frozen, and come back from their stations") {
+  const auto near = [](double run, double drop, const std::string& friction) {
+    return "glissade: 1\ntrack: {start: {x: 0 m, z: " + std::to_string(drop) +
+           " m}, finish: {x: " + std::to_string(run) + " m, z: 0 m}}\nbody: {" + friction +
+           "}\ncenterline: {kind: fastest}\n";
+  };
+  // 3 %, 1 % and some 1e-6 above the limit, the last with a bend that is lost in rounding.
+  for (const std::string& text :
+       {near(6.0, 1.9, "friction_angle: 17 deg"), near(3.0, 0.927, "friction_coefficient: 0.3"),
+        near(3.0, 0.909, "friction_coefficient: 0.3"), near(3.0, 0.900001, "friction_coefficient: 0.3")}) {
+    INFO(text);
+    const TempDir directory;
+    const Design design = parse_design(text, "near.yaml");
+    const Track found = solve(design);
+    REQUIRE(found.motion.arrived());
+    write_frozen_design(directory / "frozen.yaml", design, found);
+    const Track again = solve(read_design(directory / "frozen.yaml"));
+    CHECK(again.motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-6));
+    write_track_csv(directory / "stations.csv", found);
+    Design stations = read_design(directory / "frozen.yaml");
+    stations.centerline.points_file = directory / "stations.csv";
+    stations.centerline.points_height_column = "z_m";
+    const Track third = solve(stations);
+    if (found.motion.exit_speed() < 1e-4) continue;
+    for (const Track* const track : {&again, &third}) {
+      CHECK(track->motion.travel_time() == Approx(found.motion.travel_time()).epsilon(1e-9));
+      CHECK(track->motion.exit_speed() == Approx(found.motion.exit_speed()).epsilon(1e-8));
+    }
+  }
+}
+
 TEST_CASE("a frozen design is no CSV file") {
   const TempDir directory;
   const Design design = parse_design(cases().front().text, directory / "design.yaml");

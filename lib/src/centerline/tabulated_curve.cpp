@@ -57,6 +57,11 @@ double rise_of(const double (&cubic)[4], double u) {
   return cubic[1] + u * (2.0 * cubic[2] + u * 3.0 * cubic[3]);
 }
 
+/// A cubic whose derivatives at its ends lie between 0 and three times what it rises by grows all along.
+double between_none_and(double most, double rise) {
+  return std::clamp(rise, std::min(0.0, most), std::max(0.0, most));
+}
+
 double turning_of(const double (&cubic)[4]) {
   return std::fabs(cubic[1]) + std::fabs(cubic[2]) + std::fabs(cubic[3]);
 }
@@ -122,6 +127,38 @@ struct Turn {
   double by_curvatures = 0.0;
 };
 
+/// @return 1 where a table leads to the right, -1 where it leads to the left
+double side_of(const std::vector<TabulatedPoint>& rows) {
+  return rows.back().x < rows.front().x ? -1.0 : 1.0;
+}
+
+/// The row as a track that leads to the right has it.
+TabulatedPoint seen_ahead(TabulatedPoint row, double side) {
+  row.x *= side;
+  return row;
+}
+
+/// How far rows lie from the first of them.
+double reach_of(const std::vector<TabulatedPoint>& rows) {
+  double reach = 0.0;
+  for (const TabulatedPoint& row : rows) {
+    reach = std::max(reach, math::hypot(row.x - rows.front().x, row.drop - rows.front().drop));
+  }
+  return reach;
+}
+
+/// Rows nearer to each other than this are told by rounding: where they lie says nothing of slope or curvature. It is what is
+/// left of a bend that is sharper yet.
+double rounded_chord(const std::vector<TabulatedPoint>& rows) {
+  constexpr double kOfReach =
+      1e-12;  // rounding: of arc lengths that add up, and of the curve they were taken from
+  constexpr double kDigits = 1024.0 * std::numeric_limits<double>::epsilon();  // rounding: of coordinates
+  double farthest = 0.0;
+  for (const TabulatedPoint& row : rows)
+    farthest = std::max({farthest, std::fabs(row.x), std::fabs(row.drop)});
+  return std::max(kOfReach * reach_of(rows), kDigits * farthest);
+}
+
 /// The pair of rows whose curvatures are farthest from what the slope angles say, if those of the table are of another
 /// sign or size as a whole: a least-squares line through all pairs tells, so that rounded columns do no harm.
 std::optional<Turn> turns_otherwise(const std::vector<TabulatedPoint>& rows) {
@@ -133,11 +170,15 @@ std::optional<Turn> turns_otherwise(const std::vector<TabulatedPoint>& rows) {
   double turned = 0.0;
   double told = 0.0;
   Turn worst;
+  const double least = rounded_chord(rows);
+  const double side = side_of(rows);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const TabulatedPoint& a = rows[i - 1];
     const TabulatedPoint& b = rows[i];
     if (!std::isfinite(a.curvature) || !std::isfinite(b.curvature)) continue;
     const double length = norm(Vec2{b.x - a.x, b.drop - a.drop});
+    // The digits of a short one tell nothing, and a flight turns as far as it likes.
+    if (length < least || on_one_flight(seen_ahead(a, side), seen_ahead(b, side))) continue;
     const Turn turn{i, a.slope_angle - b.slope_angle, 0.5 * (a.curvature + b.curvature) * length};
     product += turn.by_slopes * turn.by_curvatures;
     square += turn.by_curvatures * turn.by_curvatures;
@@ -275,11 +316,9 @@ std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
   if (rows.size() < 2) {
     return TableFault{{}, {"points", "there is no second row", "A track has a start and a finish.", ""}};
   }
-  const double side = rows.back().x < rows.front().x ? -1.0 : 1.0;
-  double reach = 0.0;
-  for (const TabulatedPoint& row : rows) {
-    reach = std::max(reach, math::hypot(row.x - rows.front().x, row.drop - rows.front().drop));
-  }
+  const double side = side_of(rows);
+  const double reach = reach_of(rows);
+  const double rounded = rounded_chord(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TabulatedPoint& row = rows[i];
     if (!std::isfinite(row.x) || !std::isfinite(row.drop) || !std::isfinite(row.slope_angle)) {
@@ -290,10 +329,8 @@ std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
                    "Only at its start may a track bend without bound, and only upwards.", "");
     }
     if (i == 0) continue;
-    TabulatedPoint before = rows[i - 1];
-    TabulatedPoint here = row;
-    before.x *= side;
-    here.x *= side;
+    const TabulatedPoint before = seen_ahead(rows[i - 1], side);
+    const TabulatedPoint here = seen_ahead(row, side);
     if (same_place(before, here)) {
       constexpr double kSameSlope = 1e-6;
       const bool jump = i > 1 && i + 1 < rows.size() && !same_place(rows[i - 2], row);
@@ -304,7 +341,8 @@ std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
           "leads on.",
           "leave one of them out");
     }
-    if (!agrees(before, here, reach)) {
+    const bool near = norm(Vec2{here.x - before.x, here.drop - before.drop}) < rounded;
+    if (!near && !on_one_flight(before, here) && !agrees(before, here, reach)) {
       return fault(
           i,
           "its slope angle of " + angle_text(Angle::from_radians(row.slope_angle)) +
@@ -331,7 +369,8 @@ std::optional<TableFault> table_fault(const std::vector<TabulatedPoint>& rows) {
 TabulatedCurve::TabulatedCurve(std::vector<TabulatedPoint> rows) {
   if (const auto fault = table_fault(rows)) throw InputError(fault->issue);
   const TabulatedPoint start = rows.front();
-  const double side = rows.back().x < start.x ? -1.0 : 1.0;
+  const double side = side_of(rows);
+  const double rounded = rounded_chord(rows);
   for (TabulatedPoint& row : rows) {
     row.x = side * (row.x - start.x);
     row.drop -= start.drop;
@@ -343,14 +382,15 @@ TabulatedCurve::TabulatedCurve(std::vector<TabulatedPoint> rows) {
     if (on_one_flight(rows[i - 1], rows[i])) {
       append_flight(rows[i - 1], rows[i]);
     } else {
-      append(rows[i - 1], rows[i]);
+      append(rows[i - 1], rows[i], rounded);
     }
   }
   rows_ = std::move(rows);
 }
 
-/// Adds the stretch between two rows, as long as its chord asks for.
-void TabulatedCurve::append(const TabulatedPoint& left, const TabulatedPoint& right) {
+/// Adds the stretch between two rows, as long as its chord asks for. One shorter than `rounded` turns no way but from one slope
+/// angle to the other, whatever curvatures say.
+void TabulatedCurve::append(const TabulatedPoint& left, const TabulatedPoint& right, double rounded) {
   constexpr int kMostSteps = 60;
   const double chord = math::hypot(right.x - left.x, right.drop - left.drop);
   const double start = breaks_.back();
@@ -367,7 +407,11 @@ void TabulatedCurve::append(const TabulatedPoint& left, const TabulatedPoint& ri
     const double rise_from = first
                                  ? 2.0 * (right.slope_angle - left.slope_angle) - rise_to
                                  : -left.curvature * (unbounded_ ? 2.0 * stretch.from : 1.0) * stretch.width;
-    set_cubic(stretch.slope, left.slope_angle, rise_from, right.slope_angle, rise_to);
+    const double turn = right.slope_angle - left.slope_angle;
+    const auto steady = [&](double rise) {
+      return chord < rounded ? between_none_and(3.0 * turn, rise) : rise;
+    };
+    set_cubic(stretch.slope, left.slope_angle, steady(rise_from), right.slope_angle, steady(rise_to));
     const auto slope = [&](double p) { return value_of(stretch.slope, (p - stretch.from) / stretch.width); };
     way = displacement(slope, stretch.from, end, unbounded_, turning_of(stretch.slope));
     const double next = length * (chord / norm(way));
@@ -414,6 +458,11 @@ double TabulatedCurve::Flight::slope_at(double s) const {
   return t;
 }
 
+/// Within 0 and 1: of a stretch that is hardly longer than rounding the digits of p would lead beyond.
+double TabulatedCurve::Stretch::share(double p) const {
+  return std::clamp((p - from) / width, 0.0, 1.0);
+}
+
 double TabulatedCurve::parameter(double s) const {
   return unbounded_ ? std::sqrt(s) : s;
 }
@@ -432,7 +481,7 @@ Direction TabulatedCurve::direction(double s) const {
     return {math::atan(t), -stretch.flight->rate / (stretched * std::sqrt(stretched))};
   }
   const double p = parameter(s);
-  const double u = (p - stretch.from) / stretch.width;
+  const double u = stretch.share(p);
   const double per_length = unbounded_ ? 1.0 / (2.0 * p) : 1.0;
   return {value_of(stretch.slope, u), -rise_of(stretch.slope, u) / stretch.width * per_length};
 }
@@ -440,7 +489,7 @@ Direction TabulatedCurve::direction(double s) const {
 double TabulatedCurve::slope_angle(double s) const {
   const Stretch& stretch = stretch_at(s);
   if (stretch.flight) return math::atan(stretch.flight->slope_at(s));
-  return value_of(stretch.slope, (parameter(s) - stretch.from) / stretch.width);
+  return value_of(stretch.slope, stretch.share(parameter(s)));
 }
 
 CenterlinePoint TabulatedCurve::at(double s) const {
@@ -460,12 +509,32 @@ CenterlinePoint TabulatedCurve::at(double s) const {
 
 namespace {
 
+/// By what slope angles between rows may be off [rad]. Through a bend of curvature kappa a body may go as slowly as
+/// v^2 = g/kappa, and slope angles that are off all along a track change v^2 by 2 g times its length times that.
+double slope_error(const Centerline& curve, double coarser) {
+  constexpr double kSlope =
+      1e-12;                       // accuracy: of tracks whose bends are no sharper than 1000 to their length
+  constexpr double kSpeed = 1e-9;  // accuracy: of v^2 in the sharpest bend
+  constexpr double kRounding = 4e-15;  // rounding: of slope angles as closed forms have them
+  double sharpest = 0.0;
+  const std::vector<double> breaks = curve.breaks();
+  for (std::size_t i = 0; i < breaks.size(); ++i) {
+    const double before = i > 0 ? std::fabs(curve.direction(std::nextafter(breaks[i], 0.0)).curvature) : 0.0;
+    const double after = i > 0 ? std::fabs(curve.direction(breaks[i]).curvature) : 0.0;
+    sharpest = std::max({sharpest, before, after});
+  }
+  return std::clamp(kSpeed / (sharpest * curve.length()), kRounding, kSlope * coarser);
+}
+
 /// Rows of a curve between two breaks, as dense as the cubic between them asks for.
 class TableRows {
  public:
   /// @param coarser  how many times what a table of its own is off by is close enough
   explicit TableRows(const Centerline& curve, double coarser = 1.0)
-      : curve_(curve), coarser_(coarser), root_(curve.unbounded_curvature_at_start()) {}
+      : curve_(curve),
+        coarser_(coarser),
+        root_(curve.unbounded_curvature_at_start()),
+        slope_(slope_error(curve, coarser)) {}
 
   /// Adds the rows from one place up to, and without, another one.
   void add(double from, double to) {
@@ -490,15 +559,33 @@ class TableRows {
   /// @return `places` and those between two of them that the cubic asks for, too
   [[nodiscard]] std::vector<double> with_places_between(const std::vector<double>& places) const {
     constexpr int kMostHalvingsOfStep = 5;  // budget: stations are close already
+    constexpr double kUsualSlope = 1e-12;   // accuracy: of tracks without a sharp bend
+    const int most = slope_ < kUsualSlope ? kMostHalvings : kMostHalvingsOfStep;
     std::vector<double> all;
     for (std::size_t i = 0; i + 1 < places.size(); ++i) {
       std::vector<double> parameters;
-      part(parameter(places[i]), parameter(places[i + 1]), kMostHalvingsOfStep, parameters);
+      part(parameter(places[i]), parameter(places[i + 1]), most, parameters);
       all.push_back(places[i]);
       for (std::size_t k = 1; k < parameters.size(); ++k) all.push_back(place(parameters[k]));
     }
     if (!places.empty()) all.push_back(places.back());
     return all;
+  }
+
+  /// @return `places` without those, start and finish and breaks aside, that are nearer to one that is kept than `shortest`
+  [[nodiscard]] std::vector<double> apart(const std::vector<double>& places, double shortest) const {
+    const std::vector<double> breaks = curve_.breaks();
+    std::vector<double> kept;
+    for (const double s : places) {
+      const bool stays = std::binary_search(breaks.begin(), breaks.end(), s);
+      // Before a break those give way that are too near to it.
+      while (stays && !kept.empty() && s - kept.back() < shortest &&
+             !std::binary_search(breaks.begin(), breaks.end(), kept.back())) {
+        kept.pop_back();
+      }
+      if (stays || kept.empty() || s - kept.back() >= shortest) kept.push_back(s);
+    }
+    return kept;
   }
 
   std::vector<TabulatedPoint> rows;
@@ -514,13 +601,23 @@ class TableRows {
 
   /// Appends the parameters from a up to, and without, b between which the cubic is the curve.
   void part(double a, double b, int halvings, std::vector<double>& parameters) const {
-    if (halvings > 0 && !follows(a, b)) {
+    if (may_halve(a, b, halvings) && !follows(a, b)) {
       const double middle = 0.5 * (a + b);
       part(a, middle, halvings - 1, parameters);
       part(middle, b, halvings - 1, parameters);
       return;
     }
     parameters.push_back(a);
+  }
+
+  /// A sharp bend is halved for as long as each part turns, and is more than the rounding of places: a track next to the
+  /// limit of what can be reached turns up within 1e-12 of its length. What it turns in all bounds how often that happens.
+  [[nodiscard]] bool may_halve(double a, double b, int halvings) const {
+    constexpr double kShortest =
+        0x1p-46;                     // rounding: 64 of the last digits of a place are left between two rows
+    constexpr double kTurns = 3e-4;  // accuracy: the cubic of a bend errs by some fourth power of it [rad]
+    if (b - a <= std::max(kShortest * b, 0.0)) return false;
+    return halvings > 0 || std::fabs(curve_.slope_angle(place(b)) - curve_.slope_angle(place(a))) > kTurns;
   }
 
   /// Whether the cubic between two rows is the curve, in slope angle and in how it changes.
@@ -540,10 +637,11 @@ class TableRows {
   }
 
   [[nodiscard]] bool follows_cubic(double a, double b) const {
-    const double slope = 1e-12 * coarser_;
     const double most_turning = 1e-10 * coarser_;
     // Differences of slope angles are known to a few of their last digits: no halving makes the turning agree better.
     constexpr double kRounding = 1e-14;  // rounding: of angles up to a right one [rad]
+    // In a sharp bend the rounding of a place turns slope angles, and changes curvature in proportion to itself.
+    constexpr double kRoundedPlace = 4.0 * std::numeric_limits<double>::epsilon();  // rounding
     const double width = b - a;
     // What comes right before b counts: curvature may jump there.
     const double near = std::nextafter(b, a);
@@ -553,11 +651,13 @@ class TableRows {
     const double rise_from = root_ && a == 0.0 ? 2.0 * (to - from) - rise_to : rise(a) * width;
     double cubic[4];
     set_cubic(cubic, from, rise_from, to, rise_to);
+    const double rises = std::fabs(rise_from) + std::fabs(rise_to);
+    const double rounded = kRoundedPlace * place(near) * std::fabs(curve_.direction(place(near)).curvature);
     for (const double u : {0.25, 0.5, 0.75}) {
       const double p = a + u * width;
-      const double turning = most_turning * (1.0 + std::fabs(rise_from) + std::fabs(rise_to));
-      if (std::fabs(value_of(cubic, u) - curve_.slope_angle(place(p))) > slope) return false;
-      if (std::fabs(rise_of(cubic, u) - rise(p) * width) > turning * width + kRounding) return false;
+      const double turning = most_turning * (1.0 + rises) * width + kRounding + rounded * rises;
+      if (std::fabs(value_of(cubic, u) - curve_.slope_angle(place(p))) > slope_ + rounded) return false;
+      if (std::fabs(rise_of(cubic, u) - rise(p) * width) > turning) return false;
     }
     return true;
   }
@@ -565,6 +665,7 @@ class TableRows {
   const Centerline& curve_;
   double coarser_;
   bool root_;
+  double slope_;  // by what slope angles may be off [rad]
 };
 
 }  // namespace
@@ -588,10 +689,13 @@ std::vector<TabulatedPoint> table_of(const Centerline& curve) {
   return std::move(table.rows);
 }
 
-std::vector<double> places_for_table(const Centerline& curve, const std::vector<double>& places) {
+std::vector<double> places_for_table(const Centerline& curve, const std::vector<double>& places,
+                                     double shortest) {
   // measured: loads and radii of shipped designs come back to 4e-10; at 20 to 1.5e-9, at 1 with half as many rows again
   constexpr double kCoarser = 4.0;
-  return TableRows(curve, kCoarser).with_places_between(places);
+  const TableRows rows(curve, kCoarser);
+  const std::vector<double> all = rows.with_places_between(places);
+  return shortest > 0.0 ? rows.apart(all, shortest) : all;
 }
 
 }  // namespace glissade

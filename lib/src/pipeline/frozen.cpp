@@ -130,14 +130,32 @@ std::string table_text(const std::vector<TabulatedPoint>& rows) {
   return text;
 }
 
+/// v0^2 + 2 g length, of which rounding takes its share.
+double energy_of(const Motion& ride) {
+  const double entry = ride.body().entry_speed;
+  return entry * entry + 2.0 * ride.gravity() * ride.centerline().length();
+}
+
+/// Whether a body comes to the finish so slowly that the last digits of a table decide how, and whether it does.
+bool creeps_in(const Motion& ride) {
+  constexpr double kSlow =
+      1e-11;  // measured: of tracks that come back to 1e-13 of it, 1e-11 where a bend is lost in rounding
+  return ride.arrived() && ride.exit_speed() * ride.exit_speed() <= kSlow * energy_of(ride);
+}
+
+bool rides_alike(const Motion& was, const Motion& is) {
+  if (!was.arrived() || creeps_in(was)) return true;
+  const double rounding = kTableRounding * energy_of(was) / (was.gravity() * was.exit_speed());
+  return is.arrived() &&
+         std::fabs(is.travel_time() - was.travel_time()) <= kTableAccuracy * was.travel_time() + rounding;
+}
+
 /// The table of a track, on which the body rides as it did.
 std::vector<TabulatedPoint> faithful_table(const Track& track) {
   std::vector<TabulatedPoint> rows = table_of(*track.centerline);
   const Motion& was = track.motion;
   const Motion is(std::make_shared<TabulatedCurve>(rows), was.body(), was.gravity());
-  const bool same = is.arrived() == was.arrived() &&
-                    std::fabs(is.travel_time() - was.travel_time()) <= kTableAccuracy * was.travel_time();
-  if (same || !was.arrived()) return rows;
+  if (rides_alike(was, is)) return rows;
   throw InternalError({"centerline",
                        "the track of kind " + std::string(track.centerline->kind()) +
                            " does not ride the same from its table",
@@ -160,6 +178,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
          csv.replace_extension(".yaml").string()});
   }
   Design frozen = moved_to(emptied(design, track), file);
+  std::string remark;
   if (design.centerline.kind == CenterlineKind::segments) {
     frozen.centerline = design.centerline;
   } else if (const ClothoidSpline* const clothoids = clothoids_of(*track.centerline)) {
@@ -168,13 +187,18 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
     require_no_other(csv);
     write(csv, table_text(faithful_table(track)));
     frozen.centerline = as_table(frozen.file.parent_path() / csv.filename());
+    if (creeps_in(track.motion)) {
+      remark =
+          "# It reaches its finish at " + rounded_text(track.motion.exit_speed(), 3) +
+          " m/s: whether a body does so on the table, and how fast, is left to the table's last digits.\n";
+    }
   }
   const std::string origin = design.name.empty() ? std::string("a design") : design.name;
   std::string note = "# The track found for " + origin + ", as it is: nothing is searched for any more.\n";
   for (char& letter : note) {
     if (static_cast<unsigned char>(letter) < 0x20U && letter != '\n') letter = ' ';
   }
-  write(file, note + design_text(frozen));
+  write(file, note + remark + design_text(frozen));
 }
 
 }  // namespace glissade

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -111,6 +112,17 @@ std::vector<double> jumps_of(const Centerline& centerline) {
   return jumps;
 }
 
+/// How near to each other lines of a table may lie whose coordinates count from the origin of the site.
+double shortest_between(const Track& track) {
+  constexpr double kDigits = 256.0;  // rounding: last digits of coordinates between two lines
+  const Endpoints end = track.centerline->endpoints();
+  double farthest = 0.0;
+  for (const Vec3& at : {track.placement.start(), track.placement.to_space(end.run, end.drop, 0.0)}) {
+    farthest = std::max({farthest, std::fabs(at.x), std::fabs(at.y), std::fabs(at.z)});
+  }
+  return kDigits * std::numeric_limits<double>::epsilon() * farthest;
+}
+
 /// The place and what adds up along the ride are those of the station itself; curvature and load stay those of before it.
 void move_to(const MotionState& there, std::optional<MotionState>& state) {
   if (!state) return;
@@ -141,7 +153,8 @@ void write_track_csv(const std::filesystem::path& file, const Track& track) {
   const std::vector<double> jumps = jumps_of(centerline);
   std::vector<double> places;
   std::vector<std::size_t> before_jumps;
-  for (const double s : places_for_table(centerline, report::track_stations(centerline))) {
+  for (const double s :
+       places_for_table(centerline, report::track_stations(centerline), shortest_between(track))) {
     if (std::binary_search(jumps.begin(), jumps.end(), s)) {
       before_jumps.push_back(places.size());
       places.push_back(std::nextafter(s, 0.0));

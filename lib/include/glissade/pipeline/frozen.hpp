@@ -13,8 +13,9 @@ namespace glissade {
 /// told. Any other becomes the kind `points` with a table of its slope angles and curvatures, FILE with the ending .csv
 /// beside it, from which a body flies free where it did. All else of
 /// the design is kept; the finish is the place where the track ends.
-/// Accuracy: solve() of the new design gives travel time, speeds and places as they were to kTableAccuracy, or to
-///   rounding where the track becomes segments.
+/// Accuracy: solve() of the new design gives travel time, speeds and places as they were to kTableAccuracy and kTableRounding, or to
+///   rounding where the track becomes segments. Where a body comes to the finish at less than some 3e-6 of the speed of a fall
+///   by the length of the track, rounding decides whether it does so on the table: a remark in the file says so.
 /// @param file  to write, with an ending other than .csv
 /// @throws InputError if its ending is .csv, or if a file that is no table of a frozen track stands where its own is to go; FileError
 ///   as AtomicFile
