@@ -31,6 +31,12 @@ def spoilt(design):
     yield changed("a kind that there is not", lambda d: d["centerline"].update(kind="fastets"))
 
 
+def to_edge(design):
+    """The design with a start that is free beside an edge, which is valid whatever else it is."""
+    for start in ({"x": "free", "z": "47 m"}, {"x": "-50 m", "z": "free"}, {"x": "free", "z": "free"}):
+        yield dict(design, track={"edge": {"x": "0 m", "z": "0 m"}, "start": start})
+
+
 def main():
     program, *designs = sys.argv[1:]
     schema = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True, text=True).stdout)
@@ -43,6 +49,10 @@ def main():
         for error in validator.iter_errors(design):
             print(f"{path}: {list(error.absolute_path)}: {error.message[:200]}")
             failures += 1
+        for free in to_edge(design):
+            if not validator.is_valid(free):
+                print(f"{path}: not valid with {free['track']}")
+                failures += 1
         for name, faulty in spoilt(design):
             if validator.is_valid(faulty):
                 print(f"{path}: valid with {name}")

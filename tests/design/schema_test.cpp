@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/design/template.hpp"
+#include "glissade/design/write.hpp"
 
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -65,6 +67,28 @@ TEST_CASE("the schema accepts every shipped design and every template") {
   for (const DesignTemplate& entry : design_templates()) {
     INFO(std::string(entry.kind));
     CHECK(fault_of(design_template(entry.kind)) == "");
+  }
+}
+
+TEST_CASE("the schema accepts a start that is free beside an edge, as the reference and rewrite have it") {
+  constexpr std::string_view kEnds = "  start: {x: 0 m, z: 6.2 m}\n  finish: {x: 5.4 m, z: 1.1 m}\n";
+  for (const std::string start : {"", "  start: {x: free, z: 47 m}\n", "  start: {x: -50 m, z: free}\n",
+                                  "  start: {x: free, y: 0 m, z: free}\n"}) {
+    const std::string text = sound_design_with(kEnds, "  edge: {x: 0 m, z: 0 m}\n" + start) +
+                             "limits: {exit_speed: {lowest: 9 m/s}}\n";
+    INFO(text);
+    CHECK(fault_of(text) == "");
+    CHECK(fault_of(design_text(parse_design(text, "to_edge.yaml"))) == "");
+  }
+  CHECK(fault_of(sound_design_with(kEnds, "  edge: {x: 0 m, z: 0 m}\n  start: {x: fere, z: 47 m}\n")) != "");
+  CHECK(fault_of(sound_design_with(kEnds, "  edge: {x: free, z: 0 m}\n")) != "");
+}
+
+TEST_CASE("the schema accepts what is written of every shipped design") {
+  for (const auto& entry : std::filesystem::directory_iterator(designs_path())) {
+    if (entry.path().extension() != ".yaml") continue;
+    INFO(entry.path());
+    CHECK(fault_of(design_text(read_design(entry.path()))) == "");
   }
 }
 

@@ -219,6 +219,15 @@ TrackDesign read_track_to_edge(const Value& value, Findings& findings) {
   return track;
 }
 
+/// Tells a schema that x and z of a start may be the word `free`.
+void note_free_start(const Value& start, Findings& findings) {
+  if (start.node->kind != Node::Kind::map) return;
+  MapReader map(start, "A start", "", findings);
+  for (const std::string_view key : {"x", "z"}) {
+    if (const auto value = map.find(key)) static_cast<void>(is_word(*value, "free", findings));
+  }
+}
+
 /// @param kind  some say themselves where they end
 TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) {
   TrackDesign track;
@@ -231,9 +240,8 @@ TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) 
                        MapReader(*value, "A track", "", findings).has("edge");
   if (to_edge) return read_track_to_edge(*value, findings);
   MapReader map(*value, "A track", "{start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}", findings);
-  if (const auto start = map.need("start", "start: {x: 0 m, z: 6.2 m}")) {
-    track.start = read_position(*start, "A start", findings);
-  }
+  const auto start = map.need("start", "start: {x: 0 m, z: 6.2 m}");
+  if (start) track.start = read_position(*start, "A start", findings);
   track.finish = track.start;
   track.finish_given = map.has("finish") || !finish_may_follow;
   const auto finish =
@@ -243,7 +251,8 @@ TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) 
     map.add_stranger(key, "kind: in-run or kind: fastest in the centerline, which may be placed by an edge");
   }
   map.refuse_unknown_keys();
-  // A schema does not know here of which kind the centerline is.
+  // A schema does not know here of which kind the centerline is, nor that an edge stands beside a start that is free.
+  if (start) note_free_start(*start, findings);
   if (const auto edge = map.find("edge")) static_cast<void>(read_position(*edge, "An edge", findings));
   static_cast<void>(map.quantity("azimuth", Dimension::angle));
   return track;
