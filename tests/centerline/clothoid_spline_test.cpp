@@ -161,6 +161,8 @@ TEST_CASE("clothoid spline: says which segment is unusable and why") {
   CHECK_THROWS_WITH(ClothoidSpline(level, {}), Catch::Matchers::Contains("segments: there are none"));
   CHECK_THROWS_WITH(ClothoidSpline(level, {{1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}),
                     Catch::Matchers::Contains("segments[1]: length: 0 m is not positive"));
+  CHECK_THROWS_WITH(ClothoidSpline(level, {{1e308, 0.0, 0.0}, {1e308, 0.0, 0.0}}),
+                    Catch::Matchers::Contains("segments: their length is beyond the range of numbers"));
   CHECK_THROWS_WITH(ClothoidSpline(level, {{1.0, std::nan(""), 0.0}}),
                     Catch::Matchers::Contains("segments[0]: curvature: nan 1/m is not finite"));
   CHECK_THROWS_WITH(ClothoidSpline(level, {{1.0, 0.0, 1e9}}),

@@ -192,3 +192,19 @@ TEST_CASE("drawn track: what cannot be a segment is refused") {
   CHECK_THROWS_AS(DrawnTrack(Angle(), {CubicSegment{Angle::from_degrees(10.0), -5.0, false}}), InputError);
   CHECK_THROWS_AS(DrawnTrack(Angle(), {ClothoidSegment{-1.0, 0.0, 0.0}}), InputError);
 }
+
+TEST_CASE("a drawn track without a finite direction or end is refused, whichever segment comes first") {
+  const CubicSegment cubic{Angle::from_degrees(20.0), 10.0, false};
+  const ClothoidSegment straight{1.0, 0.0, 0.0};
+  for (const double entry : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    const Angle angle = Angle::from_radians(entry);
+    CHECK_THROWS_WITH(DrawnTrack(angle, {cubic, straight}), Catch::Matchers::Contains("entry slope angle"));
+    CHECK_THROWS_WITH(joined(angle, {cubic}), Catch::Matchers::Contains("deg is not finite"));
+    CHECK_THROWS_AS(joined(angle, {straight, cubic}), InputError);
+  }
+  const ClothoidSegment long_one{1e308, 0.0, 0.0};
+  CHECK_THROWS_WITH(joined(Angle(), {long_one, long_one}),
+                    Catch::Matchers::Contains("segments: their length is beyond the range of numbers"));
+  CHECK_THROWS_WITH(DrawnTrack(Angle(), {long_one, cubic, long_one}),
+                    Catch::Matchers::Contains("segments: their length is beyond the range of numbers"));
+}

@@ -201,6 +201,8 @@ TEST_CASE("sizes are positive") {
   CHECK_THAT(
       problems_with("17 deg", "17 deg\nlimits: {match_belt: {speed: 2 m/s, within: 200 %}}"),
       Contains("within: 200 % is out of range\n      A share of the belt's speed: above 0, at most 100 %."));
+  CHECK_THAT(problems_with("17 deg", "17 deg\nlimits: {match_belt: {speed: 2 m/s, direction: 400 deg}}"),
+             Contains("direction: 400 deg is out of range") && Contains("between -90 and 90 deg"));
 }
 
 TEST_CASE("a plate wider than the channel is refused") {

@@ -359,4 +359,10 @@ TEST_CASE("Motion says which number of the body it cannot use") {
   CHECK_NOTHROW(Motion(ramp, patchy));
 }
 
+TEST_CASE("what is looked for along a ride is a function: none is refused") {
+  const Motion ride(std::make_shared<StraightLine>(Endpoints{3.0, 2.0}), Body{});
+  CHECK_THROWS_WITH(ride.highest(Motion::Quantity()), Catch::Matchers::Contains("quantity: there is none"));
+  CHECK_THROWS_WITH(ride.mean(Motion::Quantity()), Catch::Matchers::Contains("quantity: there is none"));
+}
+
 }  // namespace events_test

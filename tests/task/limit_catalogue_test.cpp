@@ -1,12 +1,14 @@
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/problem.hpp"
 
 #include "support/catch.hpp"
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
@@ -97,6 +99,43 @@ TEST_CASE("a problem out of its bounds is refused in degrees, with what to try")
     CHECK(error.issues()[0].hint == "at most 90 deg");
     CHECK(error.issues()[1].what == "lead_in: -1 m is out of range");
   }
+}
+
+TEST_CASE("a belt to match is held to its bounds, and what only a stream has is asked of a stream") {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  const auto refusal = [&] {
+    try {
+      require_valid(problem);
+    } catch (const InputError& error) {
+      CHECK_THROWS_AS(require_judgeable(problem), InputError);
+      REQUIRE(error.issues().size() == 1);
+      return error.issues()[0].what;
+    }
+    return std::string();
+  };
+  const auto matched = [&](double speed, double direction, double within) {
+    problem.limits.match_belt = BeltMatch{speed, Angle::from_degrees(direction), within};
+    return refusal();
+  };
+  CHECK(matched(2.5, 0.0, 0.1) == "");
+  CHECK(matched(2.5, -90.0, 1.0) == "");
+  CHECK(matched(0.0, 0.0, 0.1) == "match_belt.speed: 0");
+  CHECK(matched(-2.0, 0.0, 0.1) == "match_belt.speed: -2");
+  CHECK(matched(2.5, 0.0, 1.5) == "match_belt.within: 1.5");
+  CHECK(matched(2.5, 0.0, 0.0) == "match_belt.within: 0");
+  CHECK(matched(2.5, 100.0, 0.1) == "match_belt.direction: 100 deg");
+  CHECK(matched(2.5, -400.0, 0.1) == "match_belt.direction: -400 deg");
+  CHECK(matched(2.5, std::nan(""), 0.1) == "match_belt.direction: not a number");
+  problem.limits.match_belt.reset();
+  problem.limits.highest_burden_depth = 0.1;
+  CHECK(refusal() == "highest_burden_depth: of a body that is no stream");
+  problem.limits.highest_burden_depth.reset();
+  problem.limits.highest_floor_wear = 10.0;
+  CHECK(refusal() == "highest_floor_wear: of a body that is no stream");
+  const StreamShape shape{200.0, 1600.0, 0.5, 1.0, {}};
+  problem.body.law = std::make_shared<const BulkStream>(shape);
+  CHECK(refusal() == "");
 }
 
 TEST_CASE("a problem's envelope and outlines are held to their bounds, outlines as those of a design are") {

@@ -110,9 +110,15 @@ void require_usable(Angle entry_slope_angle, const std::vector<ClothoidSegment>&
     throw InputError({"segments", "there are none", "A track needs at least one segment.", ""});
   }
   double turning = 0.0;
+  double length = 0.0;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     require_usable(segments[i], i);
+    length += segments[i].length;
     turning += turning_of(segments[i]);
+  }
+  if (!std::isfinite(length)) {
+    throw InputError({"segments", "their length is beyond the range of numbers",
+                      "Where a track ends follows from all that lies before.", "lengths in metres"});
   }
   if (turning > kMostTurning) {
     throw InputError({"segments", "they turn by up to " + rounded_text(turning, 3) + " rad in all",

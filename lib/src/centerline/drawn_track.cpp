@@ -79,12 +79,21 @@ void DrawnTrack::append(Part part) {
     joints_.push_back(end_.arc_length + part.length());
   }
   end_ = part.at(part.length());
+  if (!(std::isfinite(end_.arc_length) && std::isfinite(end_.x) && std::isfinite(end_.drop))) {
+    throw InputError({"segments", "their length is beyond the range of numbers",
+                      "Where a track ends follows from all that lies before.",
+                      "lengths and radii in metres"});
+  }
   parts_.push_back(std::move(part));
 }
 
 DrawnTrack::DrawnTrack(Angle entry_slope_angle, const std::vector<TrackSegment>& segments) : joints_{0.0} {
   if (segments.empty()) {
     throw InputError({"segments", "there are none", "A track needs at least one segment.", ""});
+  }
+  if (!std::isfinite(entry_slope_angle.radians())) {
+    throw InputError(
+        {"", "entry slope angle: " + exact_text(entry_slope_angle.degrees()) + " deg is not finite", "", ""});
   }
   end_.slope_angle = entry_slope_angle.radians();
   std::vector<ClothoidSegment> run;

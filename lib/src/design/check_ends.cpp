@@ -1,6 +1,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/design/stream_channel.hpp"
 #include "glissade/trades/chute/ends.hpp"
 
@@ -210,9 +211,11 @@ void check_match(const Design& design, Collected& findings) {
             "A share of the belt's speed: above 0, at most 100 %.", "10 %"});
   }
   const double cosine = math::cos(match.direction.radians());
-  if (!(cosine > 0.0)) {
+  if (!(cosine > 0.0 && std::fabs(match.direction.radians()) <= kRightAngle)) {
     report(findings, {"limits.match_belt.direction"},
-           {"", "direction: " + angle_text(match.direction) + ", against the track",
+           {"",
+            "direction: " + angle_text(match.direction) +
+                (cosine > 0.0 ? " is out of range" : ", against the track"),
             "What lands has no speed along such a belt.", "a direction between -90 and 90 deg"});
     return;
   }

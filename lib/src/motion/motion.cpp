@@ -77,6 +77,10 @@ Equation equation_of(const Centerline& centerline, const Body& body, double grav
   return equation;
 }
 
+void require_one(const Motion::Quantity& quantity) {
+  if (!quantity) throw InputError({"", "quantity: there is none", "What is looked for is a function.", ""});
+}
+
 void require_quantity(const Motion& motion, std::size_t index) {
   if (index < motion.quantities().size()) return;
   throw InputError({"", "quantity " + std::to_string(index) + " is not one of the ride's",
@@ -471,10 +475,12 @@ QuantityPeak Motion::highest(std::size_t index) const {
 }
 
 QuantityPeak Motion::highest(const Quantity& quantity) const {
+  require_one(quantity);
   return ride_->highest(quantity, quantity);
 }
 
 double Motion::mean(const Quantity& quantity) const {
+  require_one(quantity);
   return ride_->mean(quantity);
 }
 

@@ -2,6 +2,8 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
+#include "glissade/core/units.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
@@ -85,6 +87,25 @@ void check_body(const Problem& problem, Checker& check) {
   }
 }
 
+/// What the catalogue cannot tell: a belt is a group, and some limits are of a stream alone.
+void check_stream_limits(const Problem& problem, Checker& check) {
+  if (const auto& match = problem.limits.match_belt) {
+    check.number("match_belt.speed", match->speed, match->speed > 0.0, "a belt runs: its speed is above 0");
+    check.number("match_belt.within", match->within, match->within > 0.0 && match->within <= 1.0,
+                 "a share of the belt's speed is above 0 and at most 1");
+    const double off = std::fabs(match->direction.radians());
+    check.require(off <= kRightAngle,
+                  "match_belt.direction: " + quantity_beyond(match->direction.radians(), Dimension::angle,
+                                                             {-kRightAngle, kRightAngle}),
+                  "what lands has no speed along a belt that runs against the track: within +-90 deg");
+  }
+  if (dynamic_cast<const BulkStream*>(problem.body.law.get()) != nullptr) return;
+  check.require(!problem.limits.highest_burden_depth, "highest_burden_depth: of a body that is no stream",
+                "only a stream has a depth", "a BulkStream as the body's law");
+  check.require(!problem.limits.highest_floor_wear, "highest_floor_wear: of a body that is no stream",
+                "what rubs on the floor follows from a mass flow", "a BulkStream as the body's law");
+}
+
 void check_objective(const Problem& problem, Checker& check) {
   check.number("objective.exit_speed_weight", problem.objective.exit_speed_weight,
                problem.objective.exit_speed_weight >= 0.0, "a weight is not negative");
@@ -160,6 +181,7 @@ void require_sound(const Problem& problem, bool searched) {
   if (searched) check_objective(problem, check);
   const Limits& limits = problem.limits;
   for (LimitFault& fault : limit_faults(limits)) check.add(std::move(fault.issue));
+  check_stream_limits(problem, check);
   check.number("lowest_speed_from", limits.lowest_speed_from, limits.lowest_speed_from >= 0.0,
                "an arc length is not negative");
   check.range("finish.free_range", problem.finish.free_range);

@@ -27,8 +27,8 @@ class ClothoidSpline final : public Centerline {
  public:
   /// @param entry_slope_angle  zeta at the start; finite
   /// @param segments           in order from the start; at least one
-  /// @throws InputError naming the segment if there is none, a length is not positive and finite, a curvature
-  ///   is not finite, or the track turns by more than kMostTurning in all
+  /// @throws InputError naming the segment if there is none, a length is not positive and finite, nor that of
+  ///   all together, a curvature is not finite, or the track turns by more than kMostTurning in all
   ClothoidSpline(Angle entry_slope_angle, std::vector<ClothoidSegment> segments);
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "segments"; }

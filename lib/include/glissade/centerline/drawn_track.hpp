@@ -36,7 +36,7 @@ class DrawnTrack final : public Centerline {
  public:
   /// @param entry_slope_angle  zeta at the start; finite
   /// @param segments           in order from the start; at least one
-  /// @throws InputError as ClothoidSpline and CubicBend do
+  /// @throws InputError as ClothoidSpline and CubicBend do, of all segments together
   DrawnTrack(Angle entry_slope_angle, const std::vector<TrackSegment>& segments);
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "segments"; }

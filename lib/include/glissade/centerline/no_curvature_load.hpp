@@ -27,8 +27,10 @@ class NoCurvatureLoadCurve final : public Centerline {
   /// Stated bound of the position error relative to the length, measured in docs/accuracy.md.
   static constexpr double kPositionAccuracy = 1e-13;
 
-  /// @param endpoints  run [m], finite, any sign; drop [m], finite, > 0 and > mu |run|
-  /// @throws InputError if run or drop is not finite, or drop is not positive
+  /// @param endpoints  run [m], finite, any sign; drop [m], finite, > 0 and > mu |run|; the longer of both kShortestWay to
+  ///                   kLongestWay
+  /// @throws InputError if run or drop is not finite, drop is not positive, the way is out of its range, or the friction
+  ///         coefficient is above kRoughest
   /// @throws InfeasibleError if drop <= mu |run|: from rest, no track whatever reaches the finish
   NoCurvatureLoadCurve(const Endpoints& endpoints, Friction friction);
 

@@ -198,11 +198,13 @@ class Motion {
   /// The greatest value of anything along a ride; of the least one the quantity's negative. What is told of a ride comes from
   /// here (the referee of limits looks for itself). It is looked for between all samples, and on both sides of each place
   /// where curvature, friction or the law changes.
-  /// @param quantity  smooth in between
+  /// @param quantity  smooth in between; not empty
   /// @return its highest value, to 1e-9 relative, and its place; of two alike the first
+  /// @throws InputError if it is empty
   [[nodiscard]] QuantityPeak highest(const Quantity& quantity) const;
   /// @param quantity  as for highest()
   /// @return its mean over the way, to 1e-9 of its largest size; its value at the start of a ride without one
+  /// @throws InputError as highest()
   [[nodiscard]] double mean(const Quantity& quantity) const;
   /// @return ascending places between which the ride is smooth, from 0 to distance() [m]
   [[nodiscard]] std::vector<double> breaks() const;
