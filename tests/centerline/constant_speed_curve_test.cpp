@@ -196,6 +196,14 @@ TEST_CASE("constant-speed curve: input that leaves it undefined is refused with 
                     Catch::Matchers::Contains("On a vertical track a body presses on nothing"));
   CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 9.81, -1),
                     Catch::Matchers::Contains("p: -1 m^2/s^2 is not positive"));
+  for (const double speed : {1e200, 1e-200}) {
+    CHECK_THROWS_WITH(ConstantSpeedCurve::at_speed({10, 5}, friction, 9.81, speed),
+                      Catch::Matchers::StartsWith("speed: 1e") &&
+                          Catch::Matchers::Contains(" m/s is out of range") &&
+                          Catch::Matchers::Contains("its square"));
+  }
+  CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 9.81, HUGE_VAL),
+                    Catch::Matchers::Contains("p: inf m^2/s^2 is not positive and finite"));
   CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 0, 100),
                     Catch::Matchers::Contains("gravity: 0 m/s^2 is not positive"));
   CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 9.81, 127).speed(1, -2),

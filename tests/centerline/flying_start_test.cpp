@@ -1,5 +1,6 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
+#include "glissade/centerline/fastest_track.hpp"
 #include "glissade/centerline/flying_start_brachistochrone.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
@@ -610,6 +611,19 @@ TEST_CASE("reach theorem: what is out of its domain is refused") {
   CHECK_THROWS_AS(can_arrive({3.0, std::nan("")}, friction, 1.0), InputError);
   CHECK(least_drop(3.0, friction, 1e155) == -HUGE_VAL);
   CHECK(can_arrive({3.0, -1e300}, friction, 1e155));
+}
+
+TEST_CASE(
+    "fastest track: an entry speed below 0 or not finite is refused as such, 0 being a start from rest") {
+  const Friction friction = Friction::from_coefficient(0.1);
+  CHECK_NOTHROW(fastest_track({3.0, 2.0}, friction, 0.0));
+  for (const double speed : {-1.0, std::nan(""), HUGE_VAL}) {
+    CHECK_THROWS_WITH(fastest_track({3.0, 2.0}, friction, speed),
+                      Catch::Matchers::Contains("m/s is negative or not finite") &&
+                          !Catch::Matchers::Contains("From rest"));
+    CHECK_THROWS_WITH(fastest_travel_time({3.0, 2.0}, friction, speed),
+                      Catch::Matchers::Contains("m/s is negative or not finite"));
+  }
 }
 
 }  // namespace flying_start_test

@@ -206,6 +206,15 @@ TEST_CASE("what makes no in-run is refused with the value, the bound and a way o
   CHECK_THAT(with([](InRunShape& shape) { shape.t = -1.0; }), Contains("t: -1 m is not positive"));
   CHECK_THAT(with([](InRunShape& shape) { shape.gamma = Angle::from_degrees(80.0); }),
              Contains("gamma - alpha: 69 deg is too much for a cubic transition") && Contains("clothoid"));
+  // Curvature grows to the end of a bend up to 24.1 deg; it is the stated accuracy that ends at 50 deg.
+  CHECK_THAT(with([](InRunShape& shape) { shape.gamma = Angle::from_degrees(70.0); }),
+             Contains("gamma - alpha: 59 deg is too much") &&
+                 Contains("turns by at most 50 deg: up to there") &&
+                 Contains("it turns by 24.1 deg at most"));
+  CHECK_THAT(with([](InRunShape& shape) { shape.r1 = HUGE_VAL; }), Contains("is not positive and finite"));
+  // Each letter is named once.
+  const std::string steep = with([](InRunShape& shape) { shape.gamma = Angle::from_degrees(91.0); });
+  CHECK_THAT(steep, Catch::Matchers::StartsWith("gamma: 91 deg is out of range"));
   CHECK_THAT(with([](InRunShape& shape) { shape.length = 60.0; }), Contains("longer than the in-run, 60 m"));
   CHECK_THAT(with([](InRunShape& shape) { shape.transition = InRunTransition::two_radii; }),
              Contains("first_radius: 0"));

@@ -1,6 +1,7 @@
 #include "glissade/core/quantity.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/units.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -165,4 +166,13 @@ TEST_CASE("a quotient is answered with its value, not with the number before its
   CHECK_THAT(refusal("1/20 m", Dimension::length), Catch::Matchers::EndsWith("Try: 0.05 m"));
   for (const char* const text : {"3/0", "3/x", "1/20 kg"})
     CHECK_THAT(refusal(text, Dimension::length), !Catch::Matchers::Contains("Try:"));
+}
+
+TEST_CASE("what is no number is told as that, what has no bound as unbounded") {
+  CHECK(quantity_text(std::nan(""), Dimension::angle) == "not a number");
+  CHECK(quantity_text(std::nan(""), Dimension::length) == "not a number");
+  CHECK(quantity_text(HUGE_VAL, Dimension::angle) == "unbounded");
+  CHECK(quantity_text(HUGE_VAL, Dimension::speed) == "unbounded");
+  CHECK_THROWS_WITH(Friction::from_angle(Angle::from_radians(std::nan(""))),
+                    Catch::Matchers::Contains("friction angle not a number is out of range"));
 }

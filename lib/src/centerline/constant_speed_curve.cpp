@@ -8,6 +8,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
 
+#include "endpoint_rules.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -71,13 +73,7 @@ double scaled_length(double a, double b) {
 void require_positive(double value, const char* name, const char* unit) {
   if (std::isfinite(value) && value > 0.0) return;
   throw InputError(
-      Issue{"", std::string(name) + ": " + exact_text(value) + unit + " is not positive", "", ""});
-}
-
-void require_entry_speed(double entry_speed) {
-  if (std::isfinite(entry_speed) && entry_speed >= 0.0) return;
-  throw InputError(Issue{"", "entry_speed: " + exact_text(entry_speed) + " m/s is negative or not finite",
-                         "A body enters the track downhill or at rest.", "0 m/s, a start from rest"});
+      Issue{"", std::string(name) + ": " + exact_text(value) + unit + " is not positive and finite", "", ""});
 }
 
 void require_friction(Friction friction) {
@@ -201,7 +197,12 @@ ConstantSpeedCurve ConstantSpeedCurve::from_entry_slope(Angle entry_slope_angle,
 ConstantSpeedCurve ConstantSpeedCurve::at_speed(Endpoints endpoints, Friction friction, double gravity,
                                                 double speed) {
   require_positive(speed, "speed", " m/s");
-  return {endpoints, friction, gravity, square(speed)};
+  const double p = square(speed);
+  if (!(p > 0.0 && std::isfinite(p))) {
+    throw InputError(Issue{"", "speed: " + exact_text(speed) + " m/s is out of range",
+                           "P is its square, which is beyond the range of numbers.", "a speed in m/s"});
+  }
+  return {endpoints, friction, gravity, p};
 }
 
 double ConstantSpeedCurve::smallest_p(Endpoints endpoints, Friction friction, double gravity) {
@@ -293,7 +294,7 @@ double ConstantSpeedCurve::speed_squared(double s, double entry_speed) const {
 }
 
 void ConstantSpeedCurve::require_motion(double s, double entry_speed) const {
-  require_entry_speed(entry_speed);
+  centerline::require_entry_speed(entry_speed);
   if (entry_speed == 0.0 && psi_entry_ <= 0.0) {
     throw InfeasibleError(Issue{
         "",

@@ -43,8 +43,9 @@ void require_usable(Angle turn, double end_radius) {
          "It turns by more than 0 and at most " + angle_text(CubicBend::kMostTurn) + ".", ""});
   }
   if (!(end_radius > 0.0 && std::isfinite(end_radius))) {
-    throw InputError({"", "the radius of a cubic bend, " + exact_text(end_radius) + " m, is not positive",
-                      "It is the radius where the bend ends.", ""});
+    throw InputError(
+        {"", "the radius of a cubic bend, " + exact_text(end_radius) + " m, is not positive and finite",
+         "It is the radius where the bend ends.", ""});
   }
 }
 

@@ -123,6 +123,12 @@ void require_reachable_with_speed(const Endpoints& endpoints, Friction friction,
   if (!arrives) throw InfeasibleError(out_of_reach_with_speed(endpoints, friction, entry_speed, gravity));
 }
 
+void require_entry_speed(double entry_speed) {
+  if (std::isfinite(entry_speed) && entry_speed >= 0.0) return;
+  throw InputError({"", "entry_speed: " + exact_text(entry_speed) + " m/s is negative or not finite",
+                    "A body enters the track downhill or at rest.", "0 m/s, a start from rest"});
+}
+
 void require_gravity(double gravity) {
   if (std::isfinite(gravity) && gravity > 0.0) return;
   throw InputError({"", "gravity: " + exact_text(gravity) + " m/s^2 is not a finite number above 0", "",

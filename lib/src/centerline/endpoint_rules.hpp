@@ -9,6 +9,9 @@ namespace glissade::centerline {
 ///         kShortestWay to kLongestWay; names every fault at once
 void require_falling(const Endpoints& endpoints);
 
+/// @throws InputError if entry_speed is negative or not finite
+void require_entry_speed(double entry_speed);
+
 /// @throws InputError if gravity is not finite or not positive
 void require_gravity(double gravity);
 

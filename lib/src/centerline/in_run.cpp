@@ -45,18 +45,21 @@ void check_angles(const InRunShape& shape, std::vector<Issue>& problems) {
                         "The in-run bends upwards from its straight, gamma, to its table, alpha.",
                         "the two exchanged: a straight is some 35 deg steep, a table 11 deg"});
   } else if (shape.transition == InRunTransition::cubic && turn > CubicBend::kMostTurn) {
-    problems.push_back(
-        {"gamma",
-         "gamma - alpha: " + texts_apart(turn, CubicBend::kMostTurn).first +
-             " is too much for a cubic transition",
-         "A cubic parabola whose curvature grows turns by at most " + angle_text(CubicBend::kMostTurn) + ".",
-         "transition: clothoid, or circle"});
+    problems.push_back({"gamma",
+                        "gamma - alpha: " + texts_apart(turn, CubicBend::kMostTurn).first +
+                            " is too much for a cubic transition",
+                        "A cubic transition turns by at most " + angle_text(CubicBend::kMostTurn) +
+                            ": up to there its shape is told accurately. Its curvature grows up to its end "
+                            "where it turns by " +
+                            angle_text(CubicBend::kGrowingTurn, 3) + " at most.",
+                        "transition: clothoid, or circle"});
   }
 }
 
 void check_length(const char* key, double value, const std::string& what, std::vector<Issue>& problems) {
   if (value > 0.0 && std::isfinite(value)) return;
-  problems.push_back({key, std::string(key) + ": " + length_text(value) + " is not positive", what, ""});
+  problems.push_back(
+      {key, std::string(key) + ": " + length_text(value) + " is not positive and finite", what, ""});
 }
 
 std::vector<Issue> bend_problems(const InRunShape& shape) {
@@ -70,7 +73,9 @@ std::vector<Issue> bend_problems(const InRunShape& shape) {
   return problems;
 }
 
+/// What the problems say names the letter already.
 void refuse(std::vector<Issue> problems) {
+  for (Issue& problem : problems) problem.where.clear();
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 

@@ -375,7 +375,8 @@ double in_unit_for_people(double value, Dimension dimension) {
 }
 
 std::string quantity_text(double value, Dimension dimension, int digits) {
-  if (!std::isfinite(value)) return "unbounded";
+  if (std::isnan(value)) return "not a number";
+  if (std::isinf(value)) return "unbounded";
   if (dimension == Dimension::angle) return angle_text(Angle::from_radians(value), digits);
   if (dimension == Dimension::length) return length_text(value, digits);
   const std::string_view unit = unit_for_people(dimension);

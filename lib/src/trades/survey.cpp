@@ -19,7 +19,7 @@ constexpr std::size_t kFewestPoints = 5;
 void require_options(const SurveyOptions& options) {
   const auto positive = [](double value, const char* name, const std::string& text) {
     if (value > 0.0 && std::isfinite(value)) return;
-    throw InputError({name, std::string(name) + ": " + text + " is not positive", "", ""});
+    throw InputError({"", std::string(name) + ": " + text + " is not positive and finite", "", ""});
   };
   positive(options.tolerance, "--tolerance", length_text(options.tolerance));
   positive(options.slope_tolerance.radians(), "--slope-tolerance", angle_text(options.slope_tolerance));

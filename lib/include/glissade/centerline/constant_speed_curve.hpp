@@ -39,8 +39,8 @@ class ConstantSpeedCurve final : public Centerline {
                                                            Friction friction, double gravity, double p);
 
   /// The track on which a body that enters at this speed keeps it: P = speed^2.
-  /// @param speed  [m/s]; finite, > 0
-  /// @throws InputError as the constructor
+  /// @param speed  [m/s]; finite, > 0, its square too
+  /// @throws InputError as the constructor, and if speed or its square is out of that range
   [[nodiscard]] static ConstantSpeedCurve at_speed(Endpoints endpoints, Friction friction, double gravity,
                                                    double speed);
 

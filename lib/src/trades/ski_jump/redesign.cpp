@@ -338,7 +338,7 @@ ClothoidSpline power_in_run(const InRunShape& shape, const TakeOff& take_off) {
 
 ClothoidSpline load_controlled_in_run(const InRunShape& shape, double radial_load, const TakeOff& take_off) {
   if (!(radial_load > 0.0 && std::isfinite(radial_load))) {
-    throw InputError({"radial_load", "radial_load: " + exact_text(radial_load) + " m/s^2 is not positive",
+    throw InputError({"", "radial_load: " + exact_text(radial_load) + " m/s^2 is not positive and finite",
                       "It is what the bend presses a jumper down with.", "7.14 m/s^2"});
   }
   const LoadBend bend(shape, radial_load, take_off);
