@@ -96,7 +96,8 @@ double easiest_run(const TrackDesign& track) {
   const double start = track.start.x;
   if (range.lowest && *range.lowest > start) return *range.lowest;
   if (range.highest && *range.highest < start) return *range.highest;
-  return std::min(start + std::fabs(track.start.z - track.finish.z), range.highest.value_or(kLongestFreeRun));
+  return std::min(start + std::fabs(track.start.z - track.finish.z),
+                  range.highest.value_or(start + kLongestFreeRun));
 }
 
 /// Some place within both ranges: a metre along and a metre down where they leave it open.
