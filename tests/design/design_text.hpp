@@ -43,6 +43,8 @@ inline std::string problems_of(std::string_view text, const std::vector<Override
     return error.what();
   } catch (const InfeasibleError& error) {
     return std::string("infeasible: ") + error.what();
+  } catch (const FileError& error) {
+    return error.what();
   }
 }
 

@@ -337,7 +337,7 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
     try {
       static_cast<void>(read(csv, keys));
       return {};
-    } catch (const InputError& error) {
+    } catch (const Error& error) {
       return error.what();
     }
   };
@@ -351,6 +351,8 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
              Contains("file: ground.csv:4: x does not grow from 3 m to 2 m"));
   CHECK_THAT(refusal("x,z\n0,0\n3,high\n", ""),
              Contains("ground.csv:3:3: column \"z\": \"high\" is no number"));
+  CHECK_THAT(refusal("x,z\n2,0,3,5\n", ""),
+             Contains("file: ") && Contains("ground.csv:2: the line has 4 cells, more than the 2 names"));
   CHECK_THAT(refusal("x,z\n0,0\n", ""), Contains("ground.csv has 1 point\n"));
   CHECK_THAT(refusal("x,z\n", ""), Contains("ground.csv has 0 points"));
   CHECK_THAT(refusal("x,z\n0,0\n6,0\n", ", line: [[0 m, 0 m], [1 m, 0 m]]"),
@@ -360,6 +362,16 @@ TEST_CASE("a line of ground comes from a CSV file beside the design, its faults 
   CHECK_THAT(problems_of(std::string(kSoundDesign) +
                          "limits: {stay_above: [{line: [[0 m, 0 m], [6 m, 0 m]], unit: mm}]}\n"),
              Contains("unknown key unit"));
+}
+
+TEST_CASE("files that cannot be read are faults of files only where the design has no other") {
+  const std::string ground = std::string(kSoundDesign) + "limits: {stay_above: [{file: nowhere.csv}]}\n";
+  const std::string rules = std::string(kSoundDesign) + "rules: {sets: [nowhere.yaml]}\n";
+  for (const std::string& text : {ground, rules}) {
+    CHECK_THROWS_AS(parse_design(text, "d.yaml"), FileError);
+    CHECK_THROWS_AS(parse_design(text + "colour: red\n", "d.yaml"), InputError);
+    CHECK_THAT(problems_of(text + "colour: red\n"), Contains("nowhere.") && Contains("unknown key colour"));
+  }
 }
 
 TEST_CASE("a line of ground by a coordinate of the site is refused where its other coordinate runs") {

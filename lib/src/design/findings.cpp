@@ -53,6 +53,11 @@ void Findings::add(Position position, std::string key_path, Issue issue) {
   problems_.push_back({position, std::move(key_path), std::move(issue)});
 }
 
+void Findings::add_file(Position position, std::string key_path, Issue issue) {
+  ++files_;
+  add(position, std::move(key_path), std::move(issue));
+}
+
 bool Findings::spoiled(std::string_view key_path) const {
   return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
     return is_within(key_path, problem.key_path) || is_within(problem.key_path, key_path);

@@ -34,6 +34,8 @@ class Findings {
   [[nodiscard]] std::map<std::string, std::string, std::less<>> locations() const;
 
   void add(Position position, std::string key_path, Issue issue);
+  /// Adds that a file which the design names cannot be read, or is not of its format.
+  void add_file(Position position, std::string key_path, Issue issue);
   /// Adds a problem between values, unless one of them has a problem of its own already.
   void add_unless_spoiled(Finding finding);
 
@@ -46,6 +48,10 @@ class Findings {
   [[nodiscard]] Notes* notes() const { return notes_; }
 
   [[nodiscard]] bool empty() const { return problems_.empty(); }
+  /// @return whether there are problems, all of them those of add_file()
+  [[nodiscard]] bool only_files() const {
+    return !problems_.empty() && files_ == problems_.size() + left_out_;
+  }
   /// @return the problems by position, with `where` filled in; beyond kMostReported only how many more there
   /// are
   [[nodiscard]] std::vector<Issue> issues() const;
@@ -68,6 +74,7 @@ class Findings {
   std::vector<DataFile> data_files_;
   std::size_t left_out_ = 0;
   Notes* notes_ = nullptr;
+  std::size_t files_ = 0;
 };
 
 /// @return the key path without its last part; empty for a top-level key

@@ -516,6 +516,7 @@ Design DesignSource::with(const std::vector<Override>& overrides, ReachCheck rea
   }
   if (findings.empty()) return design;
   if (well_formed) throw InfeasibleError(findings.issues());
+  if (findings.only_files()) throw FileError(findings.issues());
   throw InputError(findings.issues());
 }
 

@@ -95,7 +95,7 @@ std::vector<Vec2> read_file(MapReader& map, const Value& file, const std::filesy
     Issue issue = error.issues().front();
     issue.what = "file: " + issue.where + ": " + issue.what;
     issue.where.clear();
-    report(std::move(issue));
+    findings.add_file(file.node->at, map.path_of("line"), std::move(issue));
     return {};
   }
 }

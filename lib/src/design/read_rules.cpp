@@ -209,9 +209,14 @@ std::vector<Rule> rules_of_set(const Value& value, const std::string& name, Rule
   try {
     return fitting_rules(read_rule_set(folder / name).rules, value, subject, findings);
   } catch (const Error& error) {
+    const bool unreadable = dynamic_cast<const FileError*>(&error) != nullptr;
     for (const Issue& issue : error.issues()) {
-      findings.add(value.node->at, value.key_path,
-                   {"", "in " + issue.where + ": " + issue.what, issue.why, issue.hint});
+      Issue here{"", "in " + issue.where + ": " + issue.what, issue.why, issue.hint};
+      if (unreadable) {
+        findings.add_file(value.node->at, value.key_path, std::move(here));
+      } else {
+        findings.add(value.node->at, value.key_path, std::move(here));
+      }
     }
     return {};
   }

@@ -6,6 +6,7 @@
 #include "study/table_file.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <set>
 #include <utility>
@@ -97,18 +98,20 @@ void require_settable(const Study& study) {
   for (const Factor& factor : study.plan.factors()) {
     std::set<std::uint64_t> tried = {0, factor.size / 2, factor.size - 1};
     for (std::size_t column = 0; column < factor.inputs.size(); ++column) {
-      std::optional<InputError> refusal;
+      std::exception_ptr refusal;
       bool accepted = false;
       for (const std::uint64_t setting : tried) {
         try {
           (void)study.source.with(
               joined(study.base, {{factor.inputs[column].key, factor.at(setting)[column]}}), ReachCheck::no);
           accepted = true;
-        } catch (const InputError& error) {
-          if (!refusal) refusal = error;
+        } catch (const InputError&) {
+          if (!refusal) refusal = std::current_exception();
+        } catch (const FileError&) {
+          if (!refusal) refusal = std::current_exception();
         }
       }
-      if (!accepted && refusal) throw InputError(*refusal);
+      if (!accepted && refusal) std::rethrow_exception(refusal);
     }
   }
 }

@@ -220,7 +220,8 @@ struct Override {
 };
 
 /// Reads and checks a design file.
-/// @throws FileError if the file cannot be read or is larger than 4 MiB
+/// @throws FileError if the file cannot be read or is larger than 4 MiB, or if nothing else is wrong but that files which
+/// it names (a line of terrain, a set of rules) cannot be read or are not of their format
 /// @throws InputError with every problem of the file at once: syntax, unknown or missing keys, units, bounds
 /// @throws InfeasibleError if nothing is wrong but that no track can reach the finish (docs/theory.md, reach
 /// theorem)
