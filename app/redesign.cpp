@@ -130,6 +130,8 @@ std::string prices_text(const Redesign& found) {
     text += (text.empty() ? "" : "\n") + price.letter + " " + quantity_text(price.value, price.dimension) +
             ": " + price_words(price);
     if (!price.rule.empty()) text += ", held by " + price.rule;
+    if (price.by_start_area)
+      text += ", held by a straight along the start area, " + length_text(found.start_area);
     if (price.certainty && needs_checking(*price.certainty))
       text += " [" + std::string(word(*price.certainty)) + "]";
   }
@@ -155,10 +157,21 @@ std::string free_text(const Redesign& found) {
 std::string breaks_text(const Redesign& found) {
   std::string text;
   for (const RedesignShape& shape : found.shapes) {
-    if (shape.breaks.empty()) continue;
-    text += (text.empty() ? "" : "\n") + shape.name + " does not keep " + listed(shape.breaks);
+    const std::string line = text.empty() ? "" : "\n";
+    if (!shape.breaks.empty()) text += line + shape.name + " does not keep " + listed(shape.breaks);
   }
   return text.empty() ? "" : labelled("In the way", text);
+}
+
+/// Which shapes begin to bend where gates lie.
+std::string area_text(const Redesign& found) {
+  std::string text;
+  for (const RedesignShape& shape : found.shapes) {
+    if (!shape.short_straight) continue;
+    const auto [straight, area] = texts_apart(*shape.short_straight, found.start_area, &length_text);
+    text += (text.empty() ? "" : "\n") + shape.name + " is straight over " + straight + ", less than " + area;
+  }
+  return text.empty() ? "" : labelled("Start area", text);
 }
 
 void write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
@@ -193,7 +206,7 @@ ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options
     print(emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
           ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
           rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
-          "\n" + prices_text(found) + free_text(found) + breaks_text(found));
+          "\n" + prices_text(found) + free_text(found) + breaks_text(found) + area_text(found));
   }
   const bool whole = found.shapes.back().track != nullptr;
   return whole ? ExitCode::done : ExitCode::not_converged;

@@ -275,6 +275,37 @@ TEST_CASE("a redesign reads back as a design that gives its numbers") {
   }
 }
 
+TEST_CASE("the letters within the rules leave a straight along the start area, and read back") {
+  const Design design = read_design(designs_path("hills/rasnov_hs38.yaml"));
+  const Redesign found = redesign(design, {}, {});
+  const RedesignShape& letters = shape_named(found, "within the rules");
+  const RedesignShape& free = found.shapes.back();
+  REQUIRE(free.track);
+  CHECK(found.start_area == 13.73);
+  CHECK(InRun(found.within_rules).transition_begins() >= found.start_area);
+  CHECK(InRun(found.within_rules).transition_begins() < found.start_area + 1e-6);
+  CHECK(free.ends.drop < letters.ends.drop);
+  CHECK(found.prices.front().by_start_area);
+  for (const RedesignShape& shape : found.shapes) {
+    INFO(shape.name);
+    CHECK_FALSE(shape.short_straight);
+  }
+  const Design made = parse_design(design_text(redesigned(design, found, false)), "made.yaml");
+  CHECK(std::fabs(solve(made).motion.exit_speed() / found.take_off.speed - 1.0) < 1e-6);
+}
+
+TEST_CASE("shapes that bend where gates lie are told") {
+  RedesignOptions slow;
+  slow.speed = 18.0;  // from no start of the certificate's own letters that leaves room for the gates
+  const Redesign found = redesign(read_design(designs_path("hills/rasnov_hs38.yaml")), slow, {});
+  const RedesignShape& moved = shape_named(found, "at that speed");
+  REQUIRE(moved.track);
+  REQUIRE(moved.short_straight);
+  CHECK(*moved.short_straight < found.start_area);
+  CHECK(*moved.short_straight > 0.0);
+  CHECK_FALSE(found.shapes.front().short_straight);
+}
+
 TEST_CASE("every goal is met from the height or the speed of the certificate, and no worse than it") {
   const Design design = garmisch_design();
   for (const RedesignGoal goal : redesign_goals()) {

@@ -407,6 +407,7 @@ std::string redesign_json(const Design& design, const Redesign& found) {
   if (!design.name.empty()) json["name"] = design.name;
   json["goal"] = word(found.goal);
   json["take_off_speed_m_per_s"] = found.take_off.speed;
+  json["start_area_m"] = found.start_area > 0.0 ? Json(found.start_area) : Json(nullptr);
   json["shapes"] = Json::array();
   const double drop = found.shapes.front().ends.drop;
   for (const RedesignShape& shape : found.shapes) {
@@ -424,6 +425,7 @@ std::string redesign_json(const Design& design, const Redesign& found) {
     add("curvature_rate_per_m2", shape.curvature_rate);
     add("curvature_jump_per_m", shape.largest_jump);
     row["breaks"] = shape.breaks;
+    row["short_straight_m"] = number(shape.short_straight);
     json["shapes"].push_back(std::move(row));
   }
   json["letters"] = Json::array();
@@ -435,6 +437,7 @@ std::string redesign_json(const Design& design, const Redesign& found) {
                                 price.price_with_rules ? Json(*price.price_with_rules) : Json(nullptr)},
                                {"rule", price.rule.empty() ? Json(nullptr) : Json(price.rule)},
                                {"certainty", price.certainty ? Json(word(*price.certainty)) : Json(nullptr)},
+                               {"held_by_start_area", price.by_start_area},
                                {"needs_checking", price.certainty && needs_checking(*price.certainty)}});
   }
   json["search"] = found.search ? search_json(*found.search) : Json(nullptr);

@@ -219,6 +219,33 @@ Limits moved(Limits limits, Vec2 from_there_to_edge) {
   return limits;
 }
 
+/// Along which gates lie, and no bend begins; 0 where the design says nothing of it.
+double start_area_of(const Design& design) {
+  const double of_gates = design.gates ? design.gates->start_area.value_or(0.0) : 0.0;
+  return std::max(of_gates, design.centerline.in_run.start_area().value_or(0.0));
+}
+
+/// How far a track is straight from its start on.
+double straight_of(const Centerline& track) {
+  const std::vector<double> breaks = track.breaks();
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double middle = breaks[i - 1] + 0.5 * (breaks[i] - breaks[i - 1]);
+    if (track.direction(middle).curvature != 0.0) return breaks[i - 1];
+  }
+  return track.length();
+}
+
+/// Tells of each shape but the free one, which the search holds to it, where gates would lie in the bend.
+void hold_to_area(double area, std::vector<RedesignShape>& shapes) {
+  for (std::size_t i = 0; i + 1 < shapes.size(); ++i) {
+    RedesignShape& shape = shapes[i];
+    if (shape.track == nullptr) continue;
+    constexpr double kRounding = 1e-9;  // rounding: of lengths that are sums
+    const double straight = straight_of(*shape.track);
+    if (straight < area * (1.0 - kRounding)) shape.short_straight = straight;
+  }
+}
+
 /// Tells of each shape what it runs into.
 void hold_against(Problem places, std::vector<RedesignShape>& shapes) {
   if (!places.limits.has_clearances() && places.limits.waypoints.empty()) return;
@@ -268,7 +295,7 @@ class FreeShape {
     limits.slope_angle.highest = ruled.steepest ? ruled.steepest->value : certificate.gamma.radians();
     limits.exit_slope_angle = Range::fixed(certificate.alpha.radians());
     limits.concave = true;
-    limits.lead_in = design.centerline.in_run.start_area().value_or(0.0);
+    limits.lead_in = start_area_of(design);
     if (options.goal != RedesignGoal::least_load)
       limits.smallest_valley_radius = ruled.radius ? ruled.radius->value : certificate.r1;
     if (options.goal != RedesignGoal::least_curvature_rate) {
@@ -466,8 +493,52 @@ std::optional<RuledBound> growth_of_radius(const Design& design, const Measureme
   return growth;
 }
 
-/// growth_of_radius() of the letters found; none where their gates cannot be ridden: a start area longer than the straight that
-/// is left is told when the design is read.
+/// The lowest letters within bounds that keep a straight along the start area. What shortens it is a steep in-run, of which
+/// the bend takes more of the height: gamma gives way where it may be chosen. If that does not help it is told of the shape.
+InRunShape least_drop_beside_area(const InRunShape& certificate, const LetterBounds& bounds,
+                                  const TakeOff& take_off, double area) {
+  const InRunShape steep = least_drop_in_run(certificate, bounds, take_off);
+  constexpr double kBeyond = 1.0 + 1e-9;  // rounding: on the safe side, when read back too
+  const auto fits = [&](const InRunShape& shape) {
+    return InRun(shape).transition_begins() >= kBeyond * area;
+  };
+  if (area == 0.0 || fits(steep) || !bounds.gamma.highest) return steep;
+  const auto with_gamma = [&](double gamma) {
+    InRunShape shape = steep;
+    shape.gamma = Angle::from_radians(gamma);
+    return reaching(shape, take_off);
+  };
+  try {
+    double too_steep = steep.gamma.radians();
+    const double lowest = std::max(steep.alpha.radians(), bounds.gamma.lowest.value_or(0.0));
+    double gamma = too_steep;
+    InRunShape best = steep;
+    constexpr int kMostHalvings = 6;  // budget: down to 1/64 of the turn, hardly a bend
+    for (int i = 0; i < kMostHalvings && !fits(best); ++i) {
+      too_steep = gamma;
+      gamma = 0.5 * (gamma + lowest);
+      best = with_gamma(gamma);
+    }
+    if (!fits(best)) return steep;
+    constexpr int kBisections = 45;  // accuracy: some 1e-14 rad
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = 0.5 * (gamma + too_steep);
+      const InRunShape shape = with_gamma(middle);
+      if (fits(shape)) {
+        gamma = middle;
+        best = shape;
+      } else {
+        too_steep = middle;
+      }
+    }
+    return best;
+  } catch (const InputError&) {
+    return steep;  // so gentle an in-run does not reach the speed
+  }
+}
+
+/// growth_of_radius() of the letters found; none where their gates cannot be ridden: that no gamma leaves a straight along the
+/// start area is told of the shape.
 std::optional<RuledBound> growth_for_rides(const Design& design, const Redesign& result,
                                            const RunContext& context) {
   try {
@@ -484,13 +555,16 @@ void find_within_rules(const Design& design, const InRunShape& certificate, cons
                        RuledLetters& ruled, Redesign& result) {
   constexpr int kMostRounds = 10;         // budget: each leaves some thousandth of what was missing
   constexpr double kBeyond = 1.0 + 1e-9;  // rounding: on the safe side of the bound
-  result.within_rules = least_drop_in_run(certificate, bounds_of(ruled), result.take_off);
+  const auto lowest = [&] {
+    return least_drop_beside_area(certificate, bounds_of(ruled), result.take_off, result.start_area);
+  };
+  result.within_rules = lowest();
   for (int round = 0; round < kMostRounds; ++round) {
     const std::optional<RuledBound> growth = growth_for_rides(design, result, context);
     if (!growth) return;
     tighten(ruled.radius, kBeyond * growth->value * result.within_rules.r1, *growth->rule, 1.0,
             growth->by_speed);
-    result.within_rules = least_drop_in_run(certificate, bounds_of(ruled), result.take_off);
+    result.within_rules = lowest();
   }
 }
 
@@ -507,6 +581,7 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   const InRunShape certificate = design.centerline.in_run.shape();
   Redesign result;
   result.goal = options.goal;
+  result.start_area = start_area_of(design);
   result.take_off = take_off_of(design, options, track.centerline);
   const TakeOff& take_off = result.take_off;
   const double v0 = design.hill.design_speed.value_or(take_off.speed);
@@ -528,6 +603,11 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   result.shapes.push_back(
       ridden("its letters within the rules", std::make_shared<const InRun>(result.within_rules), take_off));
   result.prices = prices_of(result.within_rules, take_off, ruled);
+  constexpr double kJust = 1.0 + 1e-6;  // rounding: of a straight that gamma has given way for
+  const bool just_fits = InRun(result.within_rules).transition_begins() <= kJust * result.start_area;
+  result.prices.front().by_start_area = just_fits && ruled.steepest &&
+                                        result.within_rules.gamma.radians() < ruled.steepest->value &&
+                                        result.prices.front().rule.empty();
   const double radius = ruled.radius ? ruled.radius->value : certificate.r1;
   add_comparisons(certificate, take_off, v0 * v0 / radius, result.shapes);
   const Problem places = places_to_edge(design, result.shapes.front().ends);
@@ -535,6 +615,7 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
     return FreeShape(design, options, certificate, ruled, take_off, places).found(context, result.search);
   }));
   hold_against(places, result.shapes);
+  hold_to_area(result.start_area, result.shapes);
   return result;
 }
 

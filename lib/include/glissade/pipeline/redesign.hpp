@@ -47,6 +47,8 @@ struct RedesignShape {
       0.0;  ///< of the curvature, where it jumps most but for the end of the transition [1/m]
   std::vector<std::string>
       breaks;  ///< clearances and waypoints of the design that it does not keep: "keep_outs[0]"
+  /// How far it is straight from its start on, where that is shorter than the start area: gates would lie in the bend [m].
+  std::optional<double> short_straight;
 };
 
 /// What one letter of the certificate costs in drop, at the take-off speed.
@@ -61,11 +63,14 @@ struct LetterPrice {
   Dimension dimension = Dimension::length;
   std::string rule;  ///< the id of the rule that the letter lies at the bound of; may be empty
   std::optional<Certainty> certainty;  ///< of that rule
+  bool by_start_area =
+      false;  ///< gamma is less steep than its rule allows, for the straight along the start area
 };
 
 /// A certificate beside what the rules would allow.
 struct Redesign {
   RedesignGoal goal = RedesignGoal::least_drop;
+  double start_area = 0.0;               ///< along which gates lie; 0: none is given [m]
   TakeOff take_off;                      ///< at its speed all shapes are compared, but that of highest speed
   std::vector<RedesignShape> shapes;     ///< the certificate first, the free shape last
   InRunShape within_rules;               ///< the letters of the lowest certificate within the rules
@@ -81,7 +86,8 @@ struct Redesign {
 ///
 /// Bounds of gamma, r1 and t come from the design's rules on in_run_slope_angle, transition_radius or
 /// design_radial_acceleration, table_length or table_time; a letter that no rule bounds stays. alpha stays, too: the jump
-/// decides it. Where no design_speed is given the rules count with the take-off speed.
+/// decides it. Where the steepest gamma leaves no straight along the start area, gamma gives way. Of the other shapes it is
+/// told. Where no design_speed is given the rules count with the take-off speed.
 /// @throws InputError if the design is of another kind than in-run, InfeasibleError if the body does not arrive
 [[nodiscard]] Redesign redesign(const Design& design, const RedesignOptions& options,
                                 const RunContext& context);
