@@ -202,6 +202,8 @@ TEST_CASE("a set that there is not, a rule that there is not and a faulty file a
   const auto problems = [&](const std::string& group) -> std::string {
     try {
       static_cast<void>(parse_design(kDesign + "rules: " + group + "\n", place / "d.yaml"));
+    } catch (const FileError& error) {
+      return std::string("file: ") + error.what();
     } catch (const InputError& error) {
       return error.what();
     }
@@ -210,7 +212,7 @@ TEST_CASE("a set that there is not, a rule that there is not and a faulty file a
   CHECK_THAT(problems("{sets: [playground-slid]}"),
              Contains("d.yaml:6:16") && Contains("Try: playground-slide"));
   CHECK_THAT(problems("{sets: [gone.yaml]}"),
-             Contains("gone.yaml: cannot read the file of rules: no such file"));
+             Contains("file: ") && Contains("gone.yaml: cannot read the file of rules: no such file"));
   CHECK_THAT(problems("{sets: [bad.yaml]}"), Contains("bad.yaml:4:5: sentence is missing"));
   CHECK_THAT(problems("{sets: [playground-slide], leave_out: [en1176-3.men]}"),
              Contains("no rule of this design has the id en1176-3.men") && Contains("Try: en1176-3.mean"));
