@@ -132,6 +132,28 @@ TEST_CASE("fastest track: the referee finds its travel time, exit speed and the 
   }
 }
 
+TEST_CASE(
+    "fastest track: beside the limit of what can be reached the referee knows the energy of the slow body") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 60; ++i) {
+    const Friction friction = Friction::from_coefficient(random.between(0.02, 3.0));
+    const double run = std::pow(10.0, random.between(-1.0, 3.0));
+    const double margin = std::pow(10.0, random.between(-4.0, -0.5));
+    const Endpoints ends{run, run * friction.coefficient() * (1.0 + margin)};
+    INFO("mu " << friction.coefficient() << ", run " << run << ", drop above the limit by " << margin
+               << " of it");
+    const auto track = std::make_shared<const CoulombBrachistochrone>(ends, friction);
+    const Motion ride(track, Body{friction, 0.0, 0.0});
+    REQUIRE(ride.arrived());
+    CHECK(ride.travel_time() == Approx(track->solution().travel_time).epsilon(kMotionAccuracy));
+    const double highest = ride.highest_speed().speed;
+    const double was = track->solution().exit_speed;
+    CHECK(std::fabs(ride.exit_speed() * ride.exit_speed() - was * was) <=
+          kMotionEnergyAccuracy * highest * highest);
+  }
+}
+
 TEST_CASE("fastest track: the body never leaves it, and its speed obeys the reach theorem") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

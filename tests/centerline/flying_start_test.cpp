@@ -331,6 +331,25 @@ TEST_CASE("fastest track with an entry speed: from ever less speed the track fro
 }
 
 TEST_CASE(
+    "fastest track with an entry speed: beside a vertical it ends at its finish, to its stated accuracy") {
+  for (const double run : {1.0, 1.975e-3}) {
+    for (const double steepness : {1e2, 1e3, 1e4, 1e5, 2.8e6, 1e7, 9e8}) {
+      const Endpoints ends{run, run * steepness};
+      for (const double mu : {0.0, 0.1, 0.5, 2.0}) {
+        for (const double share : {0.01, 0.05, 0.2, 0.3, 1.0, 3.0}) {
+          const double speed = share * std::sqrt(kDefaultGravity * ends.drop);
+          CAPTURE(run, steepness, mu, speed);
+          const FlyingStartBrachistochrone track(ends, Friction::from_coefficient(mu), speed);
+          const CenterlinePoint end = track.at(track.length());
+          CHECK(std::hypot(end.x - ends.run, end.drop - ends.drop) <=
+                FlyingStartBrachistochrone::kPositionAccuracy * track.length());
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE(
     "fastest track with an entry speed: drawn from end to end however slow it begins, however steep it is") {
   struct Drawn {
     Endpoints endpoints;

@@ -17,20 +17,40 @@ namespace {
 
 using centerline::SlopeTable;
 
-double flight_radius(const FlyingStartSolution& solution, double slope_angle) {
-  const double cosine = math::cos(slope_angle);
+/// Sine and cosine of a slope angle.
+struct Lean {
+  double sine = 0.0;
+  double cosine = 0.0;
+};
+
+Lean lean_of(double slope_angle) {
+  return {math::sin(slope_angle), math::cos(slope_angle)};
+}
+
+/// The lean where the slope angle is that of a slope and `turn` more. Beside the vertical the cosine follows from the slope,
+/// which tells how far from it that is, with all digits; the angle does not.
+Lean turned_lean(double slope, double slope_angle, double turn) {
+  constexpr double kSteepSlope = 1e2;  // accuracy: of less the angle has the digits of kPositionAccuracy
+  if (std::fabs(slope) < kSteepSlope) return lean_of(slope_angle + turn);
+  const double cosine = 1.0 / math::hypot(1.0, slope);
+  const double sine = slope * cosine;
+  const auto [turn_sine, turn_cosine] = math::sine_cosine(turn);
+  return {sine * turn_cosine + cosine * turn_sine, cosine * turn_cosine - sine * turn_sine};
+}
+
+double flight_radius(const FlyingStartSolution& solution, const Lean& lean) {
+  const double cosine = lean.cosine;
   const double speed = solution.shape.horizontal_speed;
   return speed * speed / (solution.gravity * cosine * cosine * cosine);
 }
 
-double pressed_radius(const FlyingStartSolution& solution, double slope_angle) {
+double pressed_radius(const FlyingStartSolution& solution, const Lean& lean) {
   const FlyingStartShape& shape = solution.shape;
   const double mu = shape.friction_coefficient;
   const double q2 = 1.0 - mu * mu + 2.0 * mu * shape.exit_slope;
-  const double cosine = math::cos(slope_angle);
-  const double sine = math::sin(slope_angle);
-  const double lean = sine - mu * cosine;
-  const double e = lean * lean + q2 * cosine * cosine;
+  const auto [sine, cosine] = lean;
+  const double off = sine - mu * cosine;
+  const double e = off * off + q2 * cosine * cosine;
   const double speed = shape.horizontal_speed * shape.flight_end_e;
   const double scale = speed * speed / solution.gravity;
   return scale * cosine * (e + 4.0 * mu * cosine * (sine - shape.exit_slope * cosine)) / (e * e * e);
@@ -65,14 +85,18 @@ FlyingStartBrachistochrone::FlyingStartBrachistochrone(const Endpoints& endpoint
   }
   const double flown = math::atan2(shape.flight_turn, 1.0 + shape.entry_slope * shape.flight_end_slope);
   if (flown > 0.0) {
-    flight_ = std::make_shared<SlopeTable>(solution_.entry_slope_angle.radians(), flown,
-                                           [this](double zeta) { return flight_radius(solution_, zeta); });
+    const double entry = solution_.entry_slope_angle.radians();
+    flight_ = std::make_shared<SlopeTable>(entry, flown, [&](double turn) {
+      return flight_radius(solution_, turned_lean(shape.entry_slope, entry, turn));
+    });
     flight_length_ = flight_->length();
   }
   const double pressed = turn_between(shape.flight_end_slope, shape.exit_slope);
   if (pressed < 0.0) {
-    pressed_ = std::make_shared<SlopeTable>(solution_.flight_end_slope_angle.radians(), pressed,
-                                            [this](double zeta) { return pressed_radius(solution_, zeta); });
+    const double begin = solution_.flight_end_slope_angle.radians();
+    pressed_ = std::make_shared<SlopeTable>(begin, pressed, [&](double turn) {
+      return pressed_radius(solution_, turned_lean(shape.flight_end_slope, begin, turn));
+    });
   }
   length_ = flight_length_ + (pressed_ ? pressed_->length() : 0.0);
 }
@@ -89,8 +113,9 @@ double FlyingStartBrachistochrone::slope_angle(double s) const {
 }
 
 double FlyingStartBrachistochrone::curvature(double s, double slope_angle) const {
-  if (flight_ && (s < flight_length_ || !pressed_)) return -1.0 / flight_radius(solution_, slope_angle);
-  return pressed_ ? 1.0 / pressed_radius(solution_, slope_angle) : 0.0;
+  if (flight_ && (s < flight_length_ || !pressed_))
+    return -1.0 / flight_radius(solution_, lean_of(slope_angle));
+  return pressed_ ? 1.0 / pressed_radius(solution_, lean_of(slope_angle)) : 0.0;
 }
 
 Direction FlyingStartBrachistochrone::direction(double s) const {

@@ -19,9 +19,7 @@ class SlopeTable::Builder {
   void append(double from, double to) { append(from, to, 0, {}); }
 
  private:
-  [[nodiscard]] double radius_at(double turned) const {
-    return radius_(table_.begin_ + table_.sign_ * turned);
-  }
+  [[nodiscard]] double radius_at(double turned) const { return radius_(table_.sign_ * turned); }
 
   [[nodiscard]] double arc_length(double from, double to) const {
     constexpr unsigned kPoints = 15;

@@ -22,7 +22,8 @@ class SlopeTable {
 
   /// @param begin   slope angle at the begin [rad]
   /// @param turn    slope angle at the end less that at the begin [rad]; not 0
-  /// @param radius  of curvature at a slope angle between [m]; > 0
+  /// @param radius  of curvature [m], > 0, where the slope angle is that at the begin and so much more [rad], with its
+  ///                sign: beside the vertical the sum of both has lost the digits that tell it from there
   SlopeTable(double begin, double turn, const std::function<double(double)>& radius);
 
   [[nodiscard]] double length() const noexcept { return length_; }

@@ -110,8 +110,8 @@ class SlopeTable;
 ///   that enters with so little speed feels nothing of more.
 /// Source: docs/theory.md, fastest track with an entry speed; slope angle over arc length by Chebyshev pieces.
 /// Accuracy: position to kPositionAccuracy of the length for margins above 1e-3, see flying_start_accuracy; without
-///   a flight to 1e-16/turn [rad] besides, kStraightTurn at the least; of a steep one to 1e-16 chord/run, 1e-9 at the
-///   least.
+///   a flight to 1e-16/turn [rad] besides, kStraightTurn at the least. Steeper than chord/run 1e9 it is the straight line,
+///   to 1e-9.
 /// Identity: the referee Motion, started with entry_speed, finds travel_time and exit_speed of solution().
 class FlyingStartBrachistochrone final : public Centerline {
  public:

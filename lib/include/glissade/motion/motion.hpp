@@ -131,7 +131,9 @@ struct QuantityPeak {
 ///   whose speed at the finish rounding cannot tell from zero arrives there with exit speed 0. A body that is held
 ///   (Body::held) does not lift off: where N changes its sign friction changes sides, c |N| in place of c N.
 /// Accuracy: kMotionAccuracy relative in speed and travel time, if the centerline's slope angle is exact to a
-///   few units in the last place of s and zeta; measured in docs/accuracy.md.
+///   few units in the last place of s and zeta; measured in docs/accuracy.md. Of a body that friction or a climb has
+///   slowed down the square of the speed is off by kMotionEnergyAccuracy of the greatest square that it had besides:
+///   slower than a hundredth of its highest speed it is that which tells (beside the limit of what can be reached).
 /// Domain: a centerline that is smooth between its breaks(). A bump narrower than some 1/40 of a smooth
 ///   stretch that no break tells of may go unseen.
 /// Identity: f u^2/2 + friction_loss + drag_loss = g drop + f entry_speed^2/2 at every station, f = 1 and the
@@ -239,7 +241,12 @@ enum class RideEnd {
 /// @return "arrived", "stalled", "lifted off", "does not fit", "choked", "flies over the start", "stands where it lands"
 [[nodiscard]] std::string_view to_text(RideEnd end);
 
-/// Stated bound of the relative error of Motion's speeds and times, measured in docs/accuracy.md.
+/// Stated bound of the relative error of Motion's speeds and times, measured in docs/accuracy.md; of speeds while the body
+/// has a hundredth of its highest speed.
 inline constexpr double kMotionAccuracy = 1e-10;
+/// Stated bound of the error of the square of a speed, relative to the greatest square of the ride: what the rounding of
+/// place and slope angle takes or gives. Measured on fastest tracks from rest that end as slowly as 1e-6 of their highest
+/// speed, drops from 1e-4 of it above the limit of what can be reached.
+inline constexpr double kMotionEnergyAccuracy = 1e-11;
 
 }  // namespace glissade
