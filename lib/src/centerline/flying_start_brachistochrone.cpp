@@ -30,7 +30,7 @@ Lean lean_of(double slope_angle) {
 /// The lean where the slope angle is that of a slope and `turn` more. Beside the vertical the cosine follows from the slope,
 /// which tells how far from it that is, with all digits; the angle does not.
 Lean turned_lean(double slope, double slope_angle, double turn) {
-  constexpr double kSteepSlope = 1e2;  // accuracy: of less the angle has the digits of kPositionAccuracy
+  constexpr double kSteepSlope = 10.0;  // accuracy: of less the angle has the digits of kPositionAccuracy
   if (std::fabs(slope) < kSteepSlope) return lean_of(slope_angle + turn);
   const double cosine = 1.0 / math::hypot(1.0, slope);
   const double sine = slope * cosine;
