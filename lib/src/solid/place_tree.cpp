@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kPlacesOfLeaf = 8;
 
-double squared(Vec2 a) {
+double square_of(Vec2 a) {
   return dot(a, a);
 }
 
@@ -47,12 +47,12 @@ void PlaceTree::build(std::size_t node, std::size_t begin, std::size_t end) {
 void PlaceTree::search(std::size_t node, std::size_t begin, std::size_t end, Vec2 point, double& best,
                        std::size_t& nearest) const {
   const auto distance_to = [point](const Box& box) {
-    return squared({std::max({box.low.x - point.x, 0.0, point.x - box.high.x}),
-                    std::max({box.low.y - point.y, 0.0, point.y - box.high.y})});
+    return square_of({std::max({box.low.x - point.x, 0.0, point.x - box.high.x}),
+                      std::max({box.low.y - point.y, 0.0, point.y - box.high.y})});
   };
   if (end - begin <= kPlacesOfLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {
-      const double distance = squared(places_[i] - point);
+      const double distance = square_of(places_[i] - point);
       if (distance >= best) continue;
       best = distance;
       nearest = i;

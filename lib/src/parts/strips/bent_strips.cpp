@@ -9,6 +9,7 @@
 #include "parts/plates/plate_joints.hpp"
 #include "parts/plates/plate_unit.hpp"
 #include "parts/shop/shop_facts.hpp"
+#include "parts/strips/strip_folds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,10 +21,8 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kSteep = 0.05;       // half the tangent of usual bends
-constexpr double kRoomAtFold = 1.02;  // length of a flat over what its bends take at the plate's height
-constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
-constexpr double kApart = 1e-4;       // of a change of width from a bend, along the track [m]
+constexpr double kSteep = 0.05;  // half the tangent of usual bends
+constexpr double kApart = 1e-4;  // of a change of width from a bend, along the track [m]
 
 double tan_half(double angle) {
   return math::tan(0.5 * angle);
@@ -31,14 +30,6 @@ double tan_half(double angle) {
 
 Vec3 unit_of(Vec3 v) {
   return (1.0 / norm(v)) * v;
-}
-
-double highest_of(const SectionPlate& plate) {
-  return std::max({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
-}
-
-double lowest_of(const SectionPlate& plate) {
-  return std::min({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
 }
 
 /// Rulings of a plate lie level: a floor.

@@ -6,6 +6,7 @@
 
 #include "parts/plates/plate_unit.hpp"
 #include "parts/strips/flats_line.hpp"
+#include "parts/strips/strip_folds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,11 +23,9 @@ constexpr double kMostSweep = 5.0 / 180.0 * std::numbers::pi;  // of an arc besi
 // Of the lean over such an arc, across per height: edges on the flat are arcs within 1e-10 m then.
 constexpr double kMostGrowth = 0.005;
 constexpr double kWholeTurn = 2.0 * std::numbers::pi;
-constexpr double kMostLean = 0.1;     // across per height
-constexpr double kMostTaper = 0.3;    // of one side, per length of track
-constexpr double kNoFold = 1e-6;      // angle that nobody bends [rad]
-constexpr double kRoomAtFold = 1.02;  // radius over height, from which a strip is not folded
-constexpr double kMostCutOff = 0.05;  // of the track, at either end, over which a strip may be missing
+constexpr double kMostLean = 0.1;   // across per height
+constexpr double kMostTaper = 0.3;  // of one side, per length of track
+constexpr double kNoFold = 1e-6;    // angle that nobody bends [rad]
 
 // Gauss, four points.
 constexpr std::array<double, 4> kNodes = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
@@ -571,14 +570,6 @@ FlatPattern pattern_of(const Development& strip, const std::vector<double>& radi
 }
 
 namespace {
-
-double highest_of(const SectionPlate& plate) {
-  return std::max({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
-}
-
-double lowest_of(const SectionPlate& plate) {
-  return std::min({plate.face_from.y, plate.face_to.y, plate.back_from.y, plate.back_to.y});
-}
 
 bool folds_over(const TrackArc& arc, const SectionPlate& plate) {
   return arc.curvature * highest_of(plate) * kRoomAtFold > 1.0 ||
