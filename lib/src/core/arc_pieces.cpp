@@ -19,7 +19,7 @@ void add_meetings_of_lines(const PathPiece& a, const PathPiece& b, std::vector<V
   if (share >= 0.0 && share <= 1.0 && other >= 0.0 && other <= 1.0) found.push_back(a.from + share * u);
 }
 
-void add_meetings(const PathPiece& line, const PathPiece& piece, const CircularArc& arc,
+void add_meetings(const PathPiece& line, const PathPiece& piece, const Circle& arc,
                   std::vector<Vec2>& found) {
   const Vec2 u = line.to - line.from;
   const double size = norm(u);
@@ -36,8 +36,8 @@ void add_meetings(const PathPiece& line, const PathPiece& piece, const CircularA
 }
 
 void add_meetings_of_arcs(const PathPiece& a, const PathPiece& b, std::vector<Vec2>& found) {
-  const CircularArc first = arc_of(a);
-  const CircularArc second = arc_of(b);
+  const Circle first = circle_of(a);
+  const Circle second = circle_of(b);
   const Vec2 apart = second.centre - first.centre;
   const double d = norm(apart);
   if (d == 0.0 || d > first.radius + second.radius || d < std::fabs(first.radius - second.radius)) return;
@@ -124,9 +124,9 @@ std::vector<Vec2> meetings(const PathPiece& a, const PathPiece& b) {
   if (a.straight() && b.straight()) {
     add_meetings_of_lines(a, b, found);
   } else if (a.straight()) {
-    add_meetings(a, b, arc_of(b), found);
+    add_meetings(a, b, circle_of(b), found);
   } else if (b.straight()) {
-    add_meetings(b, a, arc_of(a), found);
+    add_meetings(b, a, circle_of(a), found);
   } else {
     add_meetings_of_arcs(a, b, found);
   }

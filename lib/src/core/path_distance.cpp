@@ -16,7 +16,7 @@ double inner_distance(const PathPiece& a, const PathPiece& b) {
   };
   if (a.straight() && b.straight()) return least;
   if (a.straight()) return inner_distance(b, a);
-  const CircularArc first = arc_of(a);
+  const Circle first = core::circle_of(a);
   if (b.straight()) {
     const Vec2 along = b.to - b.from;
     const double square = dot(along, along);
@@ -26,7 +26,7 @@ double inner_distance(const PathPiece& a, const PathPiece& b) {
     if (norm(out) > 0.0) hold(first.centre + (first.radius / norm(out)) * out, foot);
     return least;
   }
-  const CircularArc second = arc_of(b);
+  const Circle second = core::circle_of(b);
   const Vec2 apart = second.centre - first.centre;
   if (norm(apart) == 0.0) return least;
   const Vec2 along = (1.0 / norm(apart)) * apart;

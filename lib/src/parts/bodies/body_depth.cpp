@@ -67,10 +67,10 @@ Beside beside(const PathPiece& piece, Vec2 point) {
     const Vec2 tangent = tangent_at(piece, 0.0);
     return {dot(point - piece.from, tangent), cross(tangent, point - piece.from)};
   }
-  const CircularArc arc = arc_of(piece);
+  const Circle arc = core::circle_of(piece);
   const Vec2 spoke = point - arc.centre;
   const Vec2 start = piece.from - arc.centre;
-  const double sense = arc.sweep > 0.0 ? 1.0 : -1.0;
+  const double sense = piece.bulge > 0.0 ? 1.0 : -1.0;
   return {sense * arc.radius * math::atan2(cross(start, spoke), dot(start, spoke)),
           sense * (arc.radius - norm(spoke))};
 }

@@ -6,6 +6,8 @@
 
 #include "glissade/core/math.hpp"
 
+#include "core/arc_pieces.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -118,7 +120,7 @@ double side_of(const Piece& piece, Vec2 point) {
     const Vec2 chord = piece.to - piece.from;
     return cross(chord, point - piece.from) / norm(chord);
   }
-  const CircularArc arc = arc_of(path_piece(piece));
+  const Circle arc = core::circle_of(path_piece(piece));
   return (piece.bulge > 0.0 ? 1.0 : -1.0) * (arc.radius - norm(point - arc.centre));
 }
 
