@@ -25,7 +25,7 @@ function(glissade_component name)
     POSITION_INDEPENDENT_CODE ON
     # What a source keeps to itself must not be named as what another of its component does.
     UNITY_BUILD ${GLISSADE_JOIN_SOURCES}
-    UNITY_BUILD_BATCH_SIZE 8
+    UNITY_BUILD_BATCH_SIZE 16
     VERIFY_INTERFACE_HEADER_SETS ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/lib/src)
