@@ -3,6 +3,7 @@
 #include "support/openscad_check.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -134,6 +135,8 @@ TEST_CASE("a design 5,000 km away, whatever its azimuth, is the same solid in ev
   const double tolerance = 2e-3;
   int number = 0;
   for (const double azimuth : {0.0, 45.0, 77.0, 180.0, -131.0}) {
+    // One that is no multiple of a quarter turn, and one that is, elsewhere than in CI.
+    if (azimuth != 77.0 && azimuth != 180.0 && !testing::thorough()) continue;
     const std::string directory = "far" + std::to_string(number++);
     const json far = build_at(place, chute_at(4e6, -3e6, 2500.0, azimuth, formats), directory)["mesh"];
     INFO("azimuth " << azimuth);
@@ -375,13 +378,18 @@ TEST_CASE("where one file cannot be put in its place, none is replaced") {
 }
 
 TEST_CASE("every shipped design builds, and admesh finds nothing to repair in its STL file") {
-  std::size_t count = 0;
+  std::vector<fs::path> designs;
   for (const auto& entry : fs::directory_iterator(designs_path())) {
-    if (entry.path().extension() != ".yaml") continue;
-    ++count;
+    if (entry.path().extension() == ".yaml") designs.push_back(entry.path());
+  }
+  std::sort(designs.begin(), designs.end());
+  REQUIRE(designs.size() >= 10);
+  // Every third of them elsewhere than in CI: the test of processors builds those before them, that of OpenSCAD others.
+  const std::size_t step = testing::thorough() ? 1 : 3;
+  for (std::size_t i = step / 2; i < designs.size(); i += step) {
     const TempDir place;
-    const std::string stem = entry.path().stem().string();
-    const Outcome outcome = glissade_run({"build", entry.path().string(), "--json"}, {place.path(), {}, {}});
+    const std::string stem = designs[i].stem().string();
+    const Outcome outcome = glissade_run({"build", designs[i].string(), "--json"}, {place.path(), {}, {}});
     INFO(stem);
     INFO(outcome.errors);
     REQUIRE(outcome.exit_code == 0);
@@ -396,7 +404,6 @@ TEST_CASE("every shipped design builds, and admesh finds nothing to repair in it
     CHECK(built["travel_time_s"].get<double>() < built["straight_travel_time_s"].get<double>());
     CHECK(admesh_check(place / "out" / stem / (stem + ".stl")).repaired_nothing());
   }
-  CHECK(count >= 10);
 }
 
 TEST_CASE("a build without a cross-section tells of the track alone") {

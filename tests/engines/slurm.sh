@@ -67,7 +67,9 @@ if ! scontrol show node "$host" 2>/dev/null | grep -q 'State=IDLE'; then
 fi
 
 cd "$place" || exit 1
-vary=(--set centerline.kind=straight --vary body.friction_angle=10deg:25deg:1001 --vary track.finish.z=0m:1.5m:16)
+values=201 # a task's rows then take next to no time beside its start; continuous integration has five times as many
+[ -z "${CI:-}" ] || values=1001
+vary=(--set centerline.kind=straight --vary "body.friction_angle=10deg:25deg:$values" --vary track.finish.z=0m:1.5m:16)
 "$program" sweep "$design" "${vary[@]}" -o one --quiet || exit 1
 "$program" sweep --merge one -o one.csv --quiet || exit 1
 "$program" sweep "$design" "${vary[@]}" -o many --slurm --quiet || exit 1

@@ -176,8 +176,8 @@ TEST_CASE(
 TEST_CASE("where a load is held a mesh three times as fine wins at most 1e-6") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  constexpr int kOfEach = 2;
-  for (int i = 0; i < 3 * kOfEach; ++i) {
+  const int of_each = testing::thorough() ? 2 : 1;
+  for (int i = 0; i < 3 * of_each; ++i) {
     Problem problem;
     const double mu = random.between(0.0, 0.5);
     const double ratio = std::max(1.3 * mu, random.between(0.2, 1.5));
@@ -355,6 +355,7 @@ TEST_CASE(
   };
   Before before;
   for (const double load : {14.02, 14.04, 14.06, 14.22, 14.24, 14.34, 14.36}) {
+    if (load > 14.3 && !testing::thorough()) continue;
     Problem problem;
     problem.endpoints = {18.0, 23.0};
     problem.body.friction = Friction::from_coefficient(0.41);

@@ -10,6 +10,7 @@
 #include "support/catch.hpp"
 #include "support/neighbours.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <cmath>
 #include <memory>
@@ -112,7 +113,7 @@ TEST_CASE("laws: no neighbour of the fastest track is faster, whatever moves") {
       if (active.limit.id == LimitId::entry_slope_angle || active.limit.id == LimitId::exit_slope_angle)
         price += active.price;
     }
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < (testing::thorough() ? 400 : 200); ++i) {
       const CenterlinePtr other = testing::neighbour(*spline, random, random.between(-0.05, 0.05));
       const Motion ride(other, one.problem.body);
       const double end = other->length();
@@ -175,6 +176,8 @@ TEST_CASE(
   for (const LawPtr& law : {LawPtr{}, ball(0.008), rider}) {
     for (const double lead_in : {0.0, 0.2}) {
       for (const double radius : {0.1, 0.3}) {
+        // The tighter one right from the start and the other behind a straight, elsewhere than in CI.
+        if ((lead_in > 0.0) != (radius > 0.2) && !testing::thorough()) continue;
         CAPTURE(law ? std::string(law->kind()) : "sliding point", lead_in, radius);
         const double straight_down = time_at(law, 90.0, lead_in, radius);
         const double steep = time_at(law, 89.9, lead_in, radius);

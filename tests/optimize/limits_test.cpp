@@ -6,6 +6,7 @@
 
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +49,10 @@ TEST_CASE(
   const double straight = std::sqrt(2.0 * chord / (9.81 * (std::sin(slope) - 0.2 * std::cos(slope))));
   for (const bool at_start : {false, true}) {
     double before = 0.0;
+    int number = 0;
     for (const double share : {0.90, 0.94, 0.96, 0.97, 0.98, 0.99, 0.999}) {
+      // Every other one, elsewhere than in CI.
+      if (number++ % 2 == 1 && !testing::thorough()) continue;
       Problem problem = slide(3.0, 2.0, 0.2);
       problem.limits.smallest_valley_radius = 30.0;
       problem.limits.smallest_crest_radius = 30.0;
@@ -102,6 +106,7 @@ TEST_CASE("a lowest speed from a place on holds there, and the faster it is, the
   for (const bool range : {false, true}) {
     Before before;
     for (const double lowest : {2.9, 3.0, 3.1, 3.15, 3.2}) {
+      if (lowest > 3.1 && !testing::thorough()) continue;
       Problem problem = slide(8.0, 5.0, range ? 0.306 : 0.404);
       if (range) {
         problem.low_friction = Friction::from_coefficient(0.176);

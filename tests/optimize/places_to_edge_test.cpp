@@ -39,6 +39,12 @@ Problem lowest_in_run() {
   return problem;
 }
 
+/// Its answer: in several tests, solved once.
+const Optimum& lowest_of_all() {
+  static const Optimum found = solved(lowest_in_run());
+  return found;
+}
+
 /// A place above a track, counted from its edge.
 Vec2 raised(const Optimum& optimum, double run, double height) {
   const Centerline& track = *optimum.centerline;
@@ -68,7 +74,7 @@ Problem from_its_start(const Problem& problem, const Optimum& found) {
 
 TEST_CASE("an in-run past what is in its way costs tower, and is no lower than what its own start allows") {
   Problem problem = lowest_in_run();
-  const Optimum open = solved(problem);
+  const Optimum& open = lowest_of_all();
   SECTION("a bridge") {
     problem.limits.keep_outs.push_back(bridge(open, 0.2));
   }
@@ -93,7 +99,7 @@ TEST_CASE(
     "what is far from an in-run changes nothing, and what lies at its edge is told before anything is "
     "searched") {
   Problem problem = lowest_in_run();
-  const double open = drop_of(solved(problem));
+  const double open = drop_of(lowest_of_all());
   problem.limits.keep_outs.push_back({{{-30.0, 10.0}, {-20.0, 10.0}, {-20.0, 15.0}}, 0.5, Passage::either});
   problem.limits.stay_above.push_back({{{-90.0, -45.0}, {-40.0, -8.0}, {0.0, 3.0}}, 0.1});
   problem.limits.half_planes.push_back({{-120.0, 0.0}, {-1.0, 0.0}, 1.0});
@@ -110,7 +116,7 @@ TEST_CASE(
 
 TEST_CASE("a clearance before the edge that is relaxed never asks for a higher start") {
   Problem problem = lowest_in_run();
-  problem.limits.keep_outs.push_back(bridge(solved(problem), 0.6));
+  problem.limits.keep_outs.push_back(bridge(lowest_of_all(), 0.6));
   double before = HUGE_VAL;
   for (const double clearance : {0.6, 0.4, 0.0}) {
     problem.limits.keep_outs.front().clearance = clearance;
@@ -122,7 +128,7 @@ TEST_CASE("a clearance before the edge that is relaxed never asks for a higher s
 
 TEST_CASE("the least load under a bridge, kept as a limit, needs just the height that it was found from") {
   Problem gentle = lowest_in_run();
-  gentle.limits.keep_outs.push_back(bridge(solved(gentle), 0.2));
+  gentle.limits.keep_outs.push_back(bridge(lowest_of_all(), 0.2));
   Problem lowest = gentle;
   const double height = drop_of(solved(lowest)) + 0.3;
   gentle.objective.kind = ObjectiveKind::least_load;

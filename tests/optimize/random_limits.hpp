@@ -109,14 +109,14 @@ inline Problem random_limited(testing::Random& random) {
 }
 
 /// How many random problems a test takes: GLISSADE_PROBLEMS of the environment; where that is not set 150 in continuous
-/// integration, 40 elsewhere and in a build without optimisation.
+/// integration, 24 elsewhere and in a build without optimisation.
 inline int problem_count() {
   const char* const asked = std::getenv("GLISSADE_PROBLEMS");
   if (asked != nullptr) return std::max(1, std::atoi(asked));
 #ifdef NDEBUG
-  return testing::thorough() ? 150 : 40;
+  return testing::thorough() ? 150 : 24;
 #else
-  return 40;
+  return 24;
 #endif
 }
 

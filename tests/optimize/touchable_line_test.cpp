@@ -10,6 +10,7 @@
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,6 +177,8 @@ TEST_CASE("rough ground is held by what can be touched of it, to the same track"
         }
         return corners;
       }();
+      // Each with one of the two, elsewhere than in CI.
+      if (ceiling == (below > 0.0) && !testing::thorough()) continue;
       std::vector<Vec2> of_many;
       for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         for (const double share : {0.0, 0.5}) of_many.push_back(line[i] + share * (line[i + 1] - line[i]));

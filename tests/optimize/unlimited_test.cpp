@@ -5,6 +5,7 @@
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -63,11 +64,10 @@ TEST_CASE("two runs of the same problem end in the same bits") {
   CHECK(optimize(problem).report.travel_time == optimize(problem).report.travel_time);
 }
 
-TEST_CASE(
-    "200 random reachable problems end within the stated accuracy of the exact optimum, never below it") {
+TEST_CASE("random reachable problems end within the stated accuracy of the exact optimum, never below it") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < (testing::thorough() ? 200 : 100); ++i) {
     Problem problem;
     const double mu = random.between(0.0, 1.0);
     const double ratio = std::exp(random.between(std::log(std::max(1.02 * mu, 0.02)), std::log(5.0)));

@@ -98,6 +98,8 @@ TEST_CASE("bent works: laps, tabs, slots, holes and openings are those of body, 
   std::size_t pairs = 0;
   std::size_t parted = 0;
   for (const CornerJoint corners : {CornerJoint::lap, CornerJoint::tab_and_slot}) {
+    // Tabs and slots have all that laps have, and more: laps in CI.
+    if (corners == CornerJoint::lap && !testing::thorough()) continue;
     const WorkshopBuild build = plates_of(chute(), trapezoid(), with_everything(corners));
     CHECK(build.proof.bolted > 100);
     CHECK(build.proof.edge_mismatch < 1e-9);

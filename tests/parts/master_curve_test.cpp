@@ -232,6 +232,7 @@ TEST_CASE("master curve: what is kept reaches on, never back, and saves arcs") {
 }
 
 TEST_CASE("master curve: every shipped design reaches the goal at the tolerance of its process") {
+  int number = 0;
   for (const auto& [design, tolerance] :
        {std::pair("grain_chute_with_limits", 1e-4), std::pair("wood_chip_chute", 1e-4),
         std::pair("powder_chute", 1e-4), std::pair("ore_transfer", 1e-4), std::pair("marble_run", 2e-5),
@@ -239,6 +240,8 @@ TEST_CASE("master curve: every shipped design reaches the goal at the tolerance 
         std::pair("ski_jump_inrun_with_limits", 1e-3), std::pair("ski_jump_inrun_track", 1e-3),
         std::pair("toboggan_run", 1e-3), std::pair("toboggan_on_terrain", 1e-3),
         std::pair("toboggan_run_with_mats", 1e-3), std::pair("hills/klingenthal_hs140", 1e-3)}) {
+    // Every other one, elsewhere than in CI.
+    if (number++ % 2 == 1 && !testing::thorough()) continue;
     const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
     const MasterCurve curve =
         fit_arcs(*track.centerline, {tolerance, FitSide::both, track.search.has_value()});
@@ -347,10 +350,13 @@ TEST_CASE("master curve: a fit to one side stays on it, with the goal of its own
 }
 
 TEST_CASE("master curve: long tracks reach the goal at tolerances not their own, on both sides and on one") {
+  int number = 0;
   for (const auto& [design, tolerance] :
        {std::pair("ski_jump_inrun_track", 5e-5), std::pair("toboggan_run", 1e-4),
         std::pair("toboggan_run_with_mats", 2e-5), std::pair("hills/klingenthal_hs140", 2e-4),
         std::pair("ski_jump_inrun_with_limits", 1e-4), std::pair("ore_transfer", 1e-5)}) {
+    // Every other one, elsewhere than in CI: those that the case of shipped designs leaves out.
+    if (number++ % 2 == 0 && !testing::thorough()) continue;
     const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
     for (const FitSide side : {FitSide::both, FitSide::away, FitSide::into_flow}) {
       const MasterCurve curve = fit_arcs(*track.centerline, {tolerance, side, track.search.has_value()});

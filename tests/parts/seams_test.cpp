@@ -119,6 +119,8 @@ TEST_CASE("seams: a floor of 4 m is three equal strips of a sheet of 1.5 m, and 
 
 TEST_CASE("seams: strips of leaning plates add up to the section, whatever is set in them") {
   for (const WallSeat seat : {WallSeat::beside_floor, WallSeat::on_floor}) {
+    // One seat alone, elsewhere than in CI.
+    if (seat == WallSeat::beside_floor && !testing::thorough()) continue;
     PlateOptions options;
     options.walls = seat;
     options.corners.kind = CornerJoint::tab_and_slot;
@@ -128,8 +130,6 @@ TEST_CASE("seams: strips of leaning plates add up to the section, whatever is se
     require_strips(build, options);
     CHECK(named(build, "floor_c_1").size() == 1);
     CHECK(named(build, "wall_a").empty());
-    // Narrower ones of one seat alone, elsewhere than in CI.
-    if (seat == WallSeat::beside_floor && !testing::thorough()) continue;
     options.split.widest = 0.3;
     const WorkshopBuild narrow = plates_of(chute(), wide_trapezoid(), options);
     require_strips(narrow, options);
@@ -159,7 +159,8 @@ TEST_CASE("seams: of any section whose units are welded end to end none goes on 
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   int strips = 0;
-  for (int run = 0; run < 12; ++run) {
+  const int runs = testing::thorough() ? 12 : 6;
+  for (int run = 0; run < runs; ++run) {
     PlateOptions options;
     options.flanges.wanted = run % 4 == 3;
     options.split.widest = random.between(0.25, 0.7);
@@ -200,7 +201,7 @@ TEST_CASE("seams: of any section whose units are welded end to end none goes on 
     CHECK((told.empty() || told.find("inspection|") == 0));
     if (told.empty()) CHECK(build.proof.pairs > 0);
   }
-  CHECK(strips > 8);
+  CHECK(strips > runs * 2 / 3);
 }
 
 TEST_CASE("seams: narrow strips are staggered by half a strip, and every seam lies on the plate") {
@@ -283,6 +284,8 @@ TEST_CASE("seams of sections go beside openings and their lids, which lie in one
   for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
     for (const double widest : {0.22, 0.24, 0.3}) {
       INFO("widest " << widest);
+      // The ends of the range of a rolled floor, the middle of a bent one, elsewhere than in CI.
+      if (!testing::thorough() && (widest == 0.24) != (floor == FloorMake::bent)) continue;
       options.floor = floor;
       options.split.widest = widest;
       const WorkshopBuild build = plates_of(chute(), trapezoid, options);

@@ -6,6 +6,7 @@
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,7 @@ TEST_CASE("trestles are no farther apart than is asked for, or a note says where
   options.supports->ground = {{0.0, -6.2}};
   bool kept = false;
   bool told = false;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < (testing::thorough() ? 12 : 5); ++i) {
     options.stiffeners.reset();
     if (i % 2 == 1) options.stiffeners.emplace();
     options.supports->spacing = i == 0 ? 0.25 : i == 1 ? 1.8 : random.between(0.25, 3.0);
@@ -92,8 +93,11 @@ TEST_CASE("trestles: beams of any width stand clear of a steep track, its frames
   };
   for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
     options.floor = floor;
-    set(1.687, 100e-3);
-    for (const double tube : {80e-3, 110e-3, 150e-3}) set(1.9, tube);
+    if (floor == FloorMake::rolled || testing::thorough()) set(1.687, 100e-3);
+    // The widest and the narrowest below a rolled floor, the other below a bent one, elsewhere than in CI.
+    for (const double tube : {80e-3, 110e-3, 150e-3}) {
+      if (testing::thorough() || (tube == 110e-3) == (floor == FloorMake::bent)) set(1.9, tube);
+    }
   }
 }
 
@@ -107,6 +111,7 @@ TEST_CASE("trestles carry a track with grooves, thin or thick below them, on the
     options.floor = floor;
     for (const double thickness : {0.03, 0.04, 0.12}) {
       INFO("thickness " << thickness);
+      if (!testing::thorough() && (thickness == 0.04) != (floor == FloorMake::bent)) continue;
       section::TrackGroove track;
       track.width = WidthLaw(0.4);
       track.groove_width = 0.08;

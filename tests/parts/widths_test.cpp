@@ -18,6 +18,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -401,6 +402,8 @@ TEST_CASE("widths: liners and covers beside a width that changes are closed bodi
        {section::Measures(section::UChannel{kWidening, 0.2, 4e-3}),
         section::Measures(section::Trapezoid{kWidening, 0.2, Angle::from_degrees(20.0), 4e-3})}) {
     INFO(section::kind(measures));
+    // Sides that lean are the harder ones: upright ones in CI.
+    if (std::holds_alternative<section::UChannel>(measures) && !testing::thorough()) continue;
     const WorkshopBuild build = plates_of(chute(), measures, options);  // throws where parts clash
     CHECK(build.proof.bolted > 50);
     std::size_t rims = 0;
@@ -432,7 +435,8 @@ TEST_CASE("widths: openings are cut where the width does not change, lids lie on
   Random random = seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   int made = 0;
-  for (int run = 0; run < 8; ++run) {
+  const int runs = testing::thorough() ? 8 : 4;
+  for (int run = 0; run < runs; ++run) {
     const double wide = random.between(0.3, 0.6);
     const double t = random.between(3e-3, 6e-3);
     const double from = random.between(1.5, 3.0);
@@ -492,7 +496,7 @@ TEST_CASE("widths: openings are cut where the width does not change, lids lie on
     // Thickness counts across: square to a side that leans more than the section's it is less by a hair.
     CHECK(-listed == Approx(opened).epsilon(1e-2));
   }
-  CHECK(made >= 4);
+  CHECK(made >= runs / 2);
 }
 
 TEST_CASE("widths: edges of walls that turn aside far in a bend are as long on the flat as they are made") {
@@ -526,6 +530,9 @@ TEST_CASE("widths: what is not made beside a width that changes is refused, and 
   };
   for (const CornerJoint joint : {CornerJoint::lap, CornerJoint::tab_and_slot}) {
     for (const PlateOptions& plain : {PlateOptions(), bent}) {
+      // Laps of bent floors and tabs of rolled ones, elsewhere than in CI.
+      const bool laps = joint == CornerJoint::lap;
+      if (!testing::thorough() && laps != (plain.floor == FloorMake::bent)) continue;
       PlateOptions with = plain;
       with.corners.kind = joint;
       add("corners", "corners: butt, or one width", with, plain);

@@ -7,6 +7,7 @@
 
 #include "parts/bodies/body_mesh.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,8 +137,12 @@ TEST_CASE("hood parts: every section and make hangs with its face on the undersi
       "{kind: u-channel, width: [{at: 0 m, width: 800 mm}, {at: 1.5 m, width: 700 mm}], wall_height: 300 mm, "
       "thickness: 6 mm}",
       kChannel};
+  int combination = 0;
   for (const std::string& section : sections) {
     for (const char* const make : {"floor: rolled", "floor: bent", "split: {widest: 300 mm}"}) {
+      // Each section made in one of the three ways, elsewhere than in CI.
+      const int number = combination++;
+      if (number % 3 != number / 3 && !testing::thorough()) continue;
       INFO(section << " " << make);
       const Made all = made(transfer("{process: plate, flanges: none, " + std::string(make) + "}", section));
       const Reach floor = reach_of(all, "floor");

@@ -4,6 +4,7 @@
 #include "glissade/pipeline/json.hpp"
 
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <set>
 #include <string>
@@ -56,6 +57,7 @@ TEST_CASE("a design without a track has all keys of one that has one") {
   const std::string hood =
       "hood: {radius: 0.9 m, impact_angle: 15 deg, exit_angle: 80 deg, drop: 300 mm}\n"
       "discharge: {belt_speed: 3 m/s, drop: 300 mm}\n";
+  int number = 0;
   for (const std::string& rest :
        {ends + "body: {friction_angle: 20 deg}\n", ends + "body: {friction_angle: 20 deg, drag: 0.01 1/m}\n",
         ends + "body: {kind: rolling, radius: 8 mm, rolling_resistance: 0.01}\n",
@@ -64,6 +66,9 @@ TEST_CASE("a design without a track has all keys of one that has one") {
         ends + kSection + kStream + kEntering, falling + "feed: {kind: free-fall, drop: 1 m}\n",
         falling + belt + hood}) {
     INFO(rest);
+    // A ball, a range of friction, a stream and a hood; sliding bodies of other kinds in CI.
+    const int kind = number++;
+    if ((kind < 2 || kind == 3 || kind == 6) && !testing::thorough()) continue;
     const std::string with = document_of(with_limits(rest, "smallest_valley_radius: 0.5 m, concave: true"));
     const std::string without = document_of(with_limits(rest, "speed: {highest: 2.1 m/s}"));
     REQUIRE(json::parse(with)["status"] == "arrived");
