@@ -153,7 +153,7 @@ TEST_CASE("peak wear: no neighbour that keeps the limits wears less at its peak"
   int neighbours = 0;
   const double length = found.centerline->length();
   const double exit = found.centerline->slope_angle(length);
-  for (int i = 0; i < (testing::thorough() ? 200 : 100); ++i) {
+  for (int i = 0; i < 200; ++i) {
     // The slope angle plus a random wave that leaves both ends as they are, then turned and stretched back to the finish.
     std::vector<double> wave(4);
     for (double& share : wave) share = 0.008 * normal(random);
