@@ -5,6 +5,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/motion/motion.hpp"
 #include "glissade/referee/referee.hpp"
 
 #include "optimize/conflicts/mean_slope.hpp"
@@ -47,6 +48,8 @@ class LeastBound {
     member_ = load ? &Limits::highest_normal_load : &Limits::highest_curvature_rate;
     name_ = {load ? LimitId::highest_normal_load : LimitId::highest_curvature_rate, Bound::highest};
     tried_.objective.kind = ObjectiveKind::exit_speed;
+    // The speed wanted is to be reached by the body that arrives slowest: the rougher, the slower.
+    tried_.objective.worst_case = problem.high_friction.has_value();
     tried_.limits.exit_speed.lowest.reset();
   }
 
@@ -176,7 +179,7 @@ class LeastBound {
   /// @return the end of the search, where there is none
   [[nodiscard]] std::optional<Optimum> begin() {
     Optimum loose = within(asked_.limits.*member_);
-    const bool slow = loose.centerline && loose.report.exit_speed < wanted_ * (1.0 - kSpeedAccuracy);
+    const bool slow = loose.centerline && slowest_of(loose) < wanted_ * (1.0 - kSpeedAccuracy);
     if (!loose.centerline || slow) {
       // A search that asks for the speed says why it is out of reach, or finds that it is not.
       Optimum other = asking_for_speed(asked_.limits.*member_);
@@ -191,7 +194,7 @@ class LeastBound {
   Verdict look(double bound) {
     Optimum fastest = within(bound);
     would_do_ = 0.0;
-    excess_ = fastest.centerline ? fastest.report.exit_speed - wanted_ : -wanted_;
+    excess_ = fastest.centerline ? slowest_of(fastest) - wanted_ : -wanted_;
     price_ = fastest.centerline ? price_in(fastest.report) : 0.0;
     const bool there = fastest.centerline != nullptr;
     const bool optimal = fastest.report.status == OptimizeStatus::optimal;
@@ -265,6 +268,14 @@ class LeastBound {
     return true;
   }
 
+  /// The exit speed at the friction of the range at which it is least. @pre there is a track
+  [[nodiscard]] double slowest_of(const Optimum& optimum) const {
+    if (!asked_.high_friction) return optimum.report.exit_speed;
+    Body body = asked_.body;
+    body.friction = *asked_.high_friction;
+    return Motion(optimum.centerline, body, asked_.gravity).exit_speed();
+  }
+
   /// The most of what is bounded, as the referee finds it.
   [[nodiscard]] double reached_by(const CenterlinePtr& track) const {
     // A jump of the curvature: any bound is tighter.
@@ -299,12 +310,11 @@ class LeastBound {
   Optimum priced() {
     if (!best_by_speed_ && bracket_.loose > 0.0 && !outlay_.ends()) {
       Optimum again = within(bracket_.loose);
-      if (again.centerline && again.report.exit_speed >= wanted_ * (1.0 - kSpeedAccuracy))
-        take(std::move(again));
+      if (again.centerline && slowest_of(again) >= wanted_ * (1.0 - kSpeedAccuracy)) take(std::move(again));
     }
     OptimizeReport& report = best_.report;
     // Where more than the speed wanted is reached it is not the speed that keeps the bound from being tighter.
-    const bool reached = report.exit_speed <= wanted_ * (1.0 + kSpeedReached);
+    const bool reached = slowest_of(best_) <= wanted_ * (1.0 + kSpeedReached);
     const double own = best_by_speed_ && reached ? price_in(report) : 0.0;
     std::erase_if(report.active, [&](const ActiveLimit& active) { return active.limit == name_; });
     if (own > 0.0) {
