@@ -102,6 +102,19 @@ class MovedPrograms {
     return sum;
   }
 
+  /// What the optimum's own rows carry, as carried(): where the program is right it lies between those to either side.
+  [[nodiscard]] double own(const LimitName& name) const {
+    double sum = 0.0;
+    const auto add = [&](std::size_t limit, double multiplier) {
+      if (problem_.limits[limit].name == name) sum += multiplier * per_si(limit);
+    };
+    for (std::size_t k = 0; k < found_.active.size(); ++k) add(found_.active[k].limit, found_.inequality[k]);
+    for (std::size_t i = 0; i < found_.equality.size(); ++i) {
+      if (const std::size_t* const limit = rows_.limit_of_equality(i)) add(*limit, found_.equality[i]);
+    }
+    return sum;
+  }
+
   /// Below this nothing counts, as carried().
   [[nodiscard]] double counts(const LimitName& name) const {
     double greatest = 0.0;
@@ -144,6 +157,11 @@ std::vector<OneSidedPrice> one_sided_prices(const ScaledProblem& problem, const 
   for (const LimitName& name : programs.names()) {
     double relaxing = programs.carried(name, -kMoved);
     double tightening = programs.carried(name, kMoved);
+    // Multipliers of an optimum are a subgradient: a program that has them outside of its own prices was led to another set of
+    // rows by what the point is still off.
+    const double own = programs.own(name);
+    const double room = kApart * std::fabs(own) + programs.counts(name);
+    if (own < relaxing - room || own > tightening + room) continue;
     if (name.bound == Bound::exactly) {
       // Smaller values win, or neither do.
       if (tightening < 0.0) std::tie(relaxing, tightening) = std::pair(-tightening, -relaxing);

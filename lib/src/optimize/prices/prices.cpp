@@ -53,6 +53,27 @@ Vector multipliers_of(const ScaledProblem& problem, const Found& found) {
   return multipliers;
 }
 
+// Beside the limits' own: what straight ends carry, as if each were a limit.
+constexpr std::size_t kLeads = 2;  // theory: lead_in and lead_out
+
+/// What each limit carries, in the order of the problem's, and then what each chord of the straight ends costs; 0 where nothing.
+/// @param objective  as in active_limits()
+Vector carried_by(const ScaledProblem& problem, const Found& found, double objective) {
+  Vector carried = multipliers_of(problem, found);
+  carried.resize(carried.size() + kLeads, 0.0);
+  for (const LeadPrice& lead : lead_prices(problem, found, objective)) {
+    const std::size_t end = lead.limit.id == LimitId::lead_in ? 0 : 1;
+    carried[problem.limits.size() + end] = lead.price;
+  }
+  return carried;
+}
+
+/// The same of a program on a finer mesh, which knows nothing of straight ends: these as on the mesh that is known.
+Vector with_leads_of(const Vector& known, Vector by_limit) {
+  by_limit.insert(by_limit.end(), known.end() - kLeads, known.end());
+  return by_limit;
+}
+
 /// Which prices on two meshes are not the same, but for those that do not count.
 std::vector<bool> other_prices(const Vector& a, const Vector& b) {
   constexpr double kSame = 0.01;    // accuracy: half that of a price
@@ -121,7 +142,7 @@ struct Priced {
   Found found;
   std::optional<Found>
       before;          ///< on the mesh before, of twice as long pieces; none where one mesh was enough
-  Vector multipliers;  ///< of each limit
+  Vector multipliers;  ///< as carried_by()
   Vector error;        ///< of each, by what it still changes from mesh to mesh; 0 where it stays
   Found finest;        ///< the best one on the way there
   double rest = 0.0;   ///< as in PricedLimits
@@ -184,29 +205,56 @@ void take_finest(const Found& found, double left, Found& finest, double& rest) {
   finest = found;
 }
 
-Priced priced(const ScaledProblem& problem, Found found, Vector ahead, const OptimizeOptions& options,
-              SearchControl& control, std::optional<Found>& moved) {
+/// The first optimum on a finer mesh where one tells more of prices than a program there does.
+/// @param same  whether the program's are the optimum's own
+std::optional<Found> halved_for_prices(const ScaledProblem& problem, const Found& found, const Vector& begun,
+                                       bool same, const OptimizeOptions& options, SearchControl& control) {
+  // A limit on the rate of curvature lets nothing jump and ties all pieces together. What one program tells of a finer mesh
+  // is rough then, and the optimum on it tells whether prices are others. Of straight ends a program tells nothing.
+  const bool has_leads =
+      std::any_of(begun.end() - kLeads, begun.end(), [](double lead) { return lead > 0.0; });
+  if (same ? !has_leads : !is_smooth(problem)) return std::nullopt;
+  return on_finer_mesh(problem, found, with_all_halved(*found.track, found.z), options, control);
+}
+
+/// A mesh with more pieces where prices are others: near what limits bind, or everywhere where it is a straight end's.
+MeshTrack with_halved_for(const Found& found, std::vector<bool> others) {
+  const bool of_lead = std::any_of(others.end() - kLeads, others.end(), [](bool other) { return other; });
+  if (of_lead) return with_all_halved(*found.track, found.z);
+  others.resize(others.size() - kLeads);
+  return with_halved_near(found, others);
+}
+
+/// What prices tend to, with what they still change by.
+/// @param ahead  on another mesh, in case there is but one
+void take_limits(const Sequence& sequence, const Vector& ahead, Priced& result) {
+  for (std::size_t i = 0; i < result.multipliers.size(); ++i) {
+    result.multipliers[i] = sequence.limit_of(i, result.error[i]);
+    if (sequence.size() == 1) result.error[i] = std::fabs(result.multipliers[i] - ahead[i]);
+  }
+}
+
+Priced priced(const ScaledProblem& problem, Found found, const Vector& by_limit,
+              const OptimizeOptions& options, SearchControl& control, std::optional<Found>& moved) {
   constexpr int kRounds = 3;                // budget
   constexpr std::size_t kMostPieces = 200;  // budget
-  const Vector begun = multipliers_of(problem, found);
-  bool same = ahead.empty() || same_prices(begun, ahead);
-  // A limit on the rate of curvature lets nothing jump and ties all pieces together. What one program tells of a finer mesh
-  // is rough then, and the optimum on it tells whether prices are others.
-  const bool ties = is_smooth(problem);
+  const Vector begun = carried_by(problem, found, 1.0);
+  Vector ahead = by_limit.empty() ? begun : with_leads_of(begun, by_limit);
+  bool same = same_prices(begun, ahead);
   std::optional<Found> halved;
-  if (!same && ties) {
-    halved = on_finer_mesh(problem, found, with_all_halved(*found.track, found.z), options, control);
-    if (halved) ahead = multipliers_of(problem, *halved);
-    same = halved && same_prices(begun, ahead);
+  if (!by_limit.empty()) halved = halved_for_prices(problem, found, begun, same, options, control);
+  if (halved) {
+    ahead = carried_by(problem, *halved, 1.0);
+    same = same_prices(begun, ahead);
   }
   const bool refined = !same;
-  if (refined && !ties) moved = with_knots_at_rest(problem, found, options, control);
+  const bool begins_halved = refined && halved && is_smooth(problem);
+  if (refined && !is_smooth(problem)) moved = with_knots_at_rest(problem, found, options, control);
   if (moved) found = *moved;
   Found finest = found;
   double rest = 0.0;
   std::optional<Found> before;
   Sequence sequence;
-  const bool begins_halved = refined && halved;
   if (begins_halved) {
     sequence.add(begun);
     before = std::exchange(found, std::move(*halved));
@@ -217,26 +265,22 @@ Priced priced(const ScaledProblem& problem, Found found, Vector ahead, const Opt
     take_finest(found, 1.0 / 15.0, finest, rest);
   }
   // Where a finer mesh has other prices, they are taken from there, and from a finer one still until they stay.
-  sequence.add(multipliers_of(problem, found));
+  sequence.add(carried_by(problem, found, 1.0));
   for (int round = begins_halved ? 1 : 0; !same && round < kRounds; ++round) {
     if (found.track->mesh().knots.size() > kMostPieces) break;
     // Where those bind whose prices still change: halving other pieces, too, hardly changes a digit.
     const MeshTrack finer =
-        with_halved_near(found, round == 0 ? other_prices(begun, ahead) : sequence.changing());
+        with_halved_for(found, round == 0 ? other_prices(begun, ahead) : sequence.changing());
     auto next = on_finer_mesh(problem, found, finer, options, control);
     if (!next) break;
     before = std::exchange(found, std::move(*next));
     take_finest(found, 1.0, finest, rest);
-    sequence.add(multipliers_of(problem, found));
+    sequence.add(carried_by(problem, found, 1.0));
     same = sequence.stays();
   }
-  Priced result{std::move(found),  std::move(before),
-                sequence.last(),   Vector(problem.limits.size(), 0.0),
-                std::move(finest), rest};
-  for (std::size_t i = 0; !same && i < problem.limits.size(); ++i) {
-    result.multipliers[i] = sequence.limit_of(i, result.error[i]);
-    if (sequence.size() == 1) result.error[i] = std::fabs(result.multipliers[i] - ahead[i]);
-  }
+  const Vector none(begun.size(), 0.0);
+  Priced result{std::move(found), std::move(before), sequence.last(), none, std::move(finest), rest};
+  if (!same) take_limits(sequence, ahead, result);
   for (std::size_t i = 0; refined && i < problem.limits.size(); ++i) {
     // What a finer mesh leaves as it is was right before others were looked for.
     constexpr double kStays = 1e-3;  // accuracy: a twentieth of that of a price
@@ -266,25 +310,31 @@ double price_unit(const ScaledProblem& problem, const LimitSpec& limit) {
 }
 
 /// Straight ends that cost something.
-void add_leads(const ScaledProblem& problem, const Found& found, double objective,
+void add_leads(const ScaledProblem& problem, const Found& found, const Vector& carried, const Vector& error,
                std::vector<ActiveLimit>& limits) {
   const double length = problem.lead_in + found.track->core_length(found.z) + problem.lead_out;
-  for (const LeadPrice& lead : lead_prices(problem, found, objective)) {
+  for (const LimitId id : {LimitId::lead_in, LimitId::lead_out}) {
+    const bool at_start = id == LimitId::lead_in;
+    const std::size_t index = problem.limits.size() + (at_start ? 0 : 1);
+    if (!(carried[index] > 0.0)) continue;
+    const double lead = at_start ? problem.lead_in : problem.lead_out;
     ActiveLimit active;
-    active.limit = lead.limit;
-    active.value = lead.length * problem.chord;
-    const double from = lead.limit.id == LimitId::lead_in ? 0.0 : length - lead.length;
-    active.where.push_back({from * problem.chord, (from + lead.length) * problem.chord});
-    active.price = lead.price / problem.chord * objective_unit(problem);
+    active.limit = {id, entry_of(id).bound};
+    active.value = lead * problem.chord;
+    const double from = at_start ? 0.0 : length - lead;
+    active.where.push_back({from * problem.chord, (from + lead) * problem.chord});
+    const double unit = objective_unit(problem) / problem.chord;
+    active.price = carried[index] * unit;
+    active.price_error = error[index] * unit;
     limits.push_back(std::move(active));
   }
 }
 
 /// Each limit that carries something, or binds without.
-/// @param multipliers  of each limit
+/// @param multipliers  as carried_by()
 /// @param error        of each
 std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found,
-                                        const Vector& multipliers, const Vector& error, double objective) {
+                                        const Vector& multipliers, const Vector& error) {
   std::vector<ActiveLimit> result;
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
@@ -311,12 +361,12 @@ std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Foun
     same->price_error += active.price_error;
     same->where = joined(std::move(same->where), active.where);
   }
+  add_leads(problem, found, multipliers, error, result);
   for (ActiveLimit& active : result) {
     constexpr double kTold = 0.02;  // accuracy: that of a price
     const bool is_told = active.price_error > kTold * active.price && active.price > 0.0;
     active.price_error = is_told ? active.price_error / active.price : 0.0;
   }
-  add_leads(problem, found, objective, result);
   return result;
 }
 
@@ -332,8 +382,8 @@ std::vector<ActiveLimit> told(std::vector<ActiveLimit> limits) {
 }  // namespace
 
 std::vector<ActiveLimit> active_limits(const ScaledProblem& problem, const Found& found, double objective) {
-  const Vector multipliers = multipliers_of(problem, found);
-  return told(binding_limits(problem, found, multipliers, Vector(multipliers.size(), 0.0), objective));
+  const Vector carried = carried_by(problem, found, objective);
+  return told(binding_limits(problem, found, carried, Vector(carried.size(), 0.0)));
 }
 
 namespace {
@@ -375,8 +425,8 @@ std::vector<PriceKink> kinks_of(const ScaledProblem& problem, Priced& at, const 
   }
   if (finer && !all_last) {
     at.found = std::move(*finer);
-    at.multipliers = multipliers_of(problem, at.found);
-    at.error.assign(problem.limits.size(), 0.0);
+    at.multipliers = carried_by(problem, at.found, 1.0);
+    at.error.assign(at.multipliers.size(), 0.0);
   }
   return kinks;
 }
@@ -402,7 +452,7 @@ PricedLimits priced_limits(const ScaledProblem& problem, const Found& found, con
   PricedLimits result;
   Priced at = priced(problem, found, ahead, options, control, result.better);
   const std::vector<PriceKink> kinks = kinks_of(problem, at, options, control);
-  std::vector<ActiveLimit> limits = binding_limits(problem, at.found, at.multipliers, at.error, 1.0);
+  std::vector<ActiveLimit> limits = binding_limits(problem, at.found, at.multipliers, at.error);
   for (const PriceKink& kink : kinks) {
     for (ActiveLimit& active : limits) {
       if (active.limit == kink.price.limit) set_price(kink, objective_unit(problem), active);
