@@ -313,7 +313,17 @@ TEST_CASE("the finish anywhere on a level is named by the design's x") {
 }
 
 TEST_CASE("a search that runs out of time says so, with exit code 4") {
-  const DesignFile file(kInrun);
+  // Lines and a bend keep every limit of the in-run, ...
+  const DesignFile simple(kInrun);
+  const Outcome bend = solve(simple, {"--time-budget", "0.01ms"});
+  CHECK(bend.exit_code == 4);
+  CHECK_THAT(bend.errors,
+             Contains("the time budget ran out before a search came to a track: one of lines and a bend"));
+  CHECK_THAT(bend.output, Contains("feasible, not converged"));
+  // ... but pass no point beside them.
+  std::string design = kInrun;
+  design.insert(design.find("  concave: true"), "  waypoints: [[40 m, 21 m]]\n");
+  const DesignFile file(design);
   const Outcome outcome = solve(file, {"--time-budget", "0.01ms"});
   CHECK(outcome.exit_code == 4);
   CHECK_THAT(outcome.errors, Contains("design.yaml:5:1: ended early, before any track kept every limit") &&
@@ -325,7 +335,7 @@ TEST_CASE("a search that runs out of time says so, with exit code 4") {
   CHECK(none["status"] == "no track found");
   CHECK(none["travel_time_s"].is_null());
   CHECK(none["search"]["status"] == "no track found");
-  const json track = solved(file);
+  const json track = solved(simple);
   for (const auto& [key, value] : track.items()) CHECK(none.contains(key));
   CHECK(solve(file, {"--time-budget", "-1s"}).exit_code == 2);
   const Outcome unit = solve(file, {"--time-budget", "10deg"});

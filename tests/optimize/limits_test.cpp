@@ -1,6 +1,7 @@
 // Each kind of limit: what the optimum is where it can be derived by hand, what the referee says of the rest.
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/optimize/optimize.hpp"
 
@@ -12,12 +13,14 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 namespace limits_test {
 
 using namespace glissade;
+using Catch::Matchers::Contains;
 using testing_problems::solved;
 
 namespace {
@@ -257,6 +260,80 @@ TEST_CASE(
   const std::string same = "every limit holds and no neighbouring track is faster";
   CHECK(told_at(6.9) == same);
   CHECK(told_at(6.3595) == same + "; with bends elsewhere at the cap on the speed some 0.2 % may be left");
+}
+
+TEST_CASE("next to the reach limit a search says that it cannot tell tracks apart, and at once") {
+  Problem problem;
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.body.drag_per_metre = 0.01;
+  const auto beyond = [&](double share) {
+    problem.endpoints = {10.0, 2.0 * (1.0 + share)};
+    return optimize(problem);
+  };
+  for (const double share : {1e-6, 1e-7}) {
+    CAPTURE(share);
+    const Optimum near = beyond(share);
+    CHECK(near.report.status == OptimizeStatus::feasible_not_converged);
+    CHECK_THAT(near.report.message,
+               Contains("a search takes for lying still") && Contains("try a drop of 2.001"));
+    CHECK(near.report.evaluations == 0);
+    REQUIRE(near.centerline);
+    CHECK(Motion(near.centerline, problem.body, problem.gravity).arrived());
+  }
+  // A drop as large as it tells to try leaves an optimum to be found, much faster than the straight line.
+  const Optimum told = beyond(5.1e-4);
+  CHECK(told.report.status == OptimizeStatus::optimal);
+  const Motion straight(std::make_shared<StraightLine>(problem.endpoints), problem.body, problem.gravity);
+  CHECK(told.report.travel_time < 0.8 * straight.travel_time());
+  // Without drag, and limits that bind, the exact optimum is known as near as one likes.
+  problem.body.drag_per_metre = 0.0;
+  problem.limits.arc_length.highest = 15.0;
+  const Optimum exact = beyond(1e-7);
+  CHECK(exact.report.status == OptimizeStatus::optimal);
+  CHECK(exact.report.travel_time == Approx(*exact.report.unlimited_travel_time));
+}
+
+TEST_CASE(
+    "a budget that runs out before the search comes to a track ends with a simple one, where one will do") {
+  OptimizeOptions hurried;
+  hurried.time_budget = 1e-6;
+  std::vector<Problem> problems(4);
+  for (Problem& problem : problems) {
+    problem.endpoints = {10.0, 5.0};
+    problem.body.friction = Friction::from_coefficient(0.1);
+  }
+  // A straight line, a bend between two given slopes, one whose curvature grows and fades, and the steepest ramp.
+  problems[0].limits.highest_curvature_rate = 0.05;
+  problems[1].limits.entry_slope_angle = Range::fixed(0.8);
+  problems[1].limits.exit_slope_angle = Range::fixed(0.1);
+  problems[1].limits.smallest_valley_radius = 3.0;
+  problems[2].limits.entry_slope_angle = Range::fixed(0.6);
+  problems[2].limits.exit_slope_angle = Range::fixed(0.3);
+  problems[2].limits.highest_curvature_rate = 0.5;
+  problems[2].limits.lead_out = 1.0;
+  problems[3].finish.kind = FinishKind::anywhere;
+  problems[3].objective.kind = ObjectiveKind::least_drop;
+  problems[3].limits.exit_speed.lowest = 8.0;
+  problems[3].limits.slope_angle.highest = 1.0;
+  problems[3].limits.exit_slope_angle = Range::fixed(0.2);
+  for (const Problem& problem : problems) {
+    const Optimum early = optimize(problem, hurried);
+    CAPTURE(&problem - problems.data(), early.report.brief());
+    CHECK(early.report.status == OptimizeStatus::feasible_not_converged);
+    CHECK(early.report.ended_early);
+    REQUIRE(early.centerline);
+    for (const LimitCheck& check : check_limits(problem, early.centerline)) {
+      CAPTURE(check.limit.key(), check.reached);
+      CHECK(check.kept());
+    }
+  }
+  // Whoever asks to stop wants no other track than the search's.
+  std::stop_source source;
+  source.request_stop();
+  for (const Problem& problem : problems) {
+    const Optimum stopped = optimize(problem, {}, source.get_token());
+    if (stopped.centerline) CHECK(stopped.report.message == "stopped: the best track so far");
+  }
 }
 
 }  // namespace limits_test

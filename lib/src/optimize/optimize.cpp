@@ -10,6 +10,7 @@
 #include "glissade/core/words.hpp"
 
 #include "optimize/conflicts/end_conflict.hpp"
+#include "optimize/conflicts/energy_left.hpp"
 #include "optimize/conflicts/infeasibility.hpp"
 #include "optimize/conflicts/mean_slope.hpp"
 #include "optimize/least_bound/least_bound.hpp"
@@ -22,6 +23,7 @@
 #include "optimize/search/ramp.hpp"
 #include "optimize/search/searcher.hpp"
 #include "optimize/search/shifted_bends.hpp"
+#include "optimize/search/simple_tracks.hpp"
 #include "optimize/search/smoother_ground.hpp"
 #include "optimize/search/starts.hpp"
 #include "optimize/stopped.hpp"
@@ -154,6 +156,26 @@ class Course {
     };
     const Endpoints ends = ramp->line->endpoints();
     from_line({ends.run, ends.drop}, is_behind);
+  }
+
+  /// The search from a track that was made without one, and keeps the limits.
+  void from_track(const Centerline& track) {
+    constexpr std::size_t kSteps = 128;  // taste
+    constexpr std::size_t kPieces = 24;  // taste
+    for (std::size_t way = 0; way < ways_.size() && !kept() && !stopped_; ++way) {
+      const ScaledProblem problem = scaled(problem_, ways_[way]);
+      const double between = track.length() / problem.chord - problem.lead_in - problem.lead_out;
+      if (!(between > 2.0 * kShortestCore)) return;
+      GuessCurve curve;
+      curve.length = between;
+      for (std::size_t i = 0; i <= kSteps; ++i) {
+        curve.sigma.push_back(static_cast<double>(i) / kSteps);
+        const double s = (problem.lead_in + curve.sigma.back() * between) * problem.chord;
+        curve.zeta.push_back(track.at(std::min(s, track.length())).slope_angle);
+      }
+      const Mesh mesh = mesh_of(problem, graded_knots(curve, kPieces, 1.0), between);
+      from(Foothold{way, mesh, fit(curve, Transcription(mesh))});
+    }
   }
 
   void from(const Foothold& foothold) {
@@ -478,28 +500,36 @@ void answer_with(CenterlinePtr track, const referee::Judgement& judgement, std::
   report.finer_mesh_wins = 0.0;
 }
 
+/// The unlimited optimum, where that keeps every limit. @pre there is one: unlimited_travel_time()
+std::optional<KeptTrack> exact_track(const Problem& problem, const OptimizeOptions& options) {
+  const FastestTrack fastest =
+      fastest_track(problem.endpoints, problem.body.friction, problem.body.entry_speed, problem.gravity);
+  return kept_track(problem, fastest.centerline, options.limit_tolerance);
+}
+
+bool is_fastest_at_nominal(const Objective& objective) {
+  return objective.kind == ObjectiveKind::travel_time && !objective.worst_case;
+}
+
 /// The unlimited optimum instead, where the search stayed behind it although it keeps every limit: next to the reach limit its
 /// flattest stretch asks for more pieces than a mesh has.
-void take_unlimited(const Problem& problem, const OptimizeOptions& options, Optimum& optimum) {
+/// @return whether it is the answer
+bool take_unlimited(const Problem& problem, const OptimizeOptions& options, Optimum& optimum) {
   constexpr double kBehind = 1e-6;  // accuracy: that of a time
   OptimizeReport& report = optimum.report;
   const std::optional<double> least = report.unlimited_travel_time;
-  const bool is_fastest =
-      problem.objective.kind == ObjectiveKind::travel_time && !problem.objective.worst_case;
-  if (!least || !is_fastest || report.travel_time <= (1.0 + kBehind) * *least) return;
+  const bool is_fastest = is_fastest_at_nominal(problem.objective);
+  if (!least || !is_fastest || report.travel_time <= (1.0 + kBehind) * *least) return false;
   // Who asks for few pieces gets what they give.
-  if (options.pieces < OptimizeOptions{}.pieces) return;
+  if (options.pieces < OptimizeOptions{}.pieces) return false;
   const bool bound = std::any_of(report.active.begin(), report.active.end(), [](const ActiveLimit& active) {
     return active.limit.id != LimitId::lowest_normal_load && active.limit.id != LimitId::arrival;
   });
-  if (bound) return;
-  const FastestTrack fastest =
-      fastest_track(problem.endpoints, problem.body.friction, problem.body.entry_speed, problem.gravity);
-  const referee::Judgement judgement =
-      referee::judge_track(problem, fastest.centerline, referee::kRefereeSamples);
-  if (!judgement.arrived || judgement.worst > options.limit_tolerance) return;
-  if (!(judgement.travel_time < report.travel_time)) return;
-  answer_with(fastest.centerline, judgement, {}, optimum);
+  if (bound) return false;
+  const std::optional<KeptTrack> exact = exact_track(problem, options);
+  if (!exact || !(exact->judgement.travel_time < report.travel_time)) return false;
+  answer_with(exact->track, exact->judgement, {}, optimum);
+  return true;
 }
 
 /// The ramp instead, where it keeps every limit and the search, which began from it, stayed behind it: that needs something to
@@ -512,6 +542,42 @@ void take_ramp(const Problem& problem, const OptimizeOptions& options, Optimum& 
   if (!ramp || !ramp->keeps_limits(options.limit_tolerance)) return;
   if (!(measure_of(*ramp->line, kind) < (1.0 - kBehind) * measure_of(*optimum.centerline, kind))) return;
   answer_with(ramp->line, ramp->judgement, active_limits(*ramp, problem), optimum);
+}
+
+/// The same with one that keeps every limit, and is not said to be the best.
+void answer_with_any(const KeptTrack& kept, Optimum& optimum) {
+  answer_with(kept.track, kept.judgement, {}, optimum);
+  optimum.report.status = OptimizeStatus::feasible_not_converged;
+  optimum.report.first_order_residual = HUGE_VAL;
+  optimum.report.finer_mesh_wins.reset();
+}
+
+/// Where no search can tell tracks apart: the exact optimum where that is known and keeps every limit, else the straight line.
+void tell_creeping(const Problem& problem, const OptimizeOptions& options, const Creep& creep,
+                   Optimum& optimum) {
+  OptimizeReport& report = optimum.report;
+  const bool has_exact = report.unlimited_travel_time && is_fastest_at_nominal(problem.objective);
+  if (const auto exact = has_exact ? exact_track(problem, options) : std::nullopt) {
+    answer_with(exact->track, exact->judgement, {}, optimum);
+    report.status = OptimizeStatus::optimal;
+    report.message = "every limit holds, and no track without limits is faster";
+    return;
+  }
+  const auto line =
+      kept_track(problem, std::make_shared<const StraightLine>(problem.endpoints), options.limit_tolerance);
+  report.message =
+      (line ? "every limit holds on the straight line, but " : "no search was made: ") + creep_text(creep);
+  if (line) answer_with_any(*line, optimum);
+}
+
+/// Whether a body of the range arrives slower than the search lets it: on a straight line that took its track's place. What it
+/// would win by other tracks the search does not see.
+bool arrives_creeping(const Problem& problem, const Optimum& optimum) {
+  constexpr double kBelow = 0.99;  // taste: rows are kept to far more
+  Body body = problem.body;
+  body.friction = problem.high_friction.value_or(body.friction);
+  const Motion ride(optimum.centerline, body, problem.gravity);
+  return ride.exit_speed() < kBelow * creeping_speed(problem, optimum.centerline->length());
 }
 
 /// Tells why there is no track.
@@ -539,6 +605,34 @@ Problem with_true_changes(Problem problem) {
   return problem;
 }
 
+/// Tells how the search ended. @param is_exact  the track is the optimum without limits
+void tell_end(const Problem& problem, const OptimizeOptions& options, const Course& course, bool out_of_time,
+              bool is_exact, Optimum& optimum) {
+  OptimizeReport& report = optimum.report;
+  const bool converged = report.first_order_residual <= options.tolerance && !course.stopped();
+  report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
+  report.message = ended_text(problem.objective, report.status, course.stopped(), out_of_time);
+  if (!course.stopped() && !is_exact && arrives_creeping(problem, optimum)) {
+    report.status = OptimizeStatus::feasible_not_converged;
+    report.message =
+        "every limit holds, but the body arrives slower than what a search takes for lying still: drop and "
+        "friction are so near to what ends the ride that it cannot tell whether another track is better; try "
+        "a "
+        "larger drop, less friction or an entry speed";
+    return;
+  }
+  // Answers to neighbouring problems of the kind were out of order by up to 1.7e-3 (docs/optimization.md).
+  const bool winds = converged && winds_at_cap(*course.best().problem, *course.best().found);
+  if (winds) report.message += "; with bends elsewhere at the cap on the speed some 0.2 % may be left";
+}
+
+std::string simple_text(bool stopped) {
+  return stopped
+             ? "the time budget ran out before a search came to a track: one of lines and a bend that keeps "
+               "every limit"
+             : "every limit holds on a track of lines and a bend; no search led from there to a better one";
+}
+
 /// The search itself, of a problem that is sound.
 Optimum searched(const Problem& problem, const OptimizeOptions& options, Patience& patience,
                  SearchControl& control, const Progress& progress) {
@@ -562,6 +656,10 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
     tell_none(*std::move(at_once), true, false, report);
     return optimum;
   }
+  if (const std::optional<Creep> creep = creep_at_best(problem)) {
+    tell_creeping(problem, options, *creep, optimum);
+    return optimum;
+  }
 
   Course course(problem, options, control, progress);
   course.from_starts();
@@ -574,21 +672,26 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   course.look_again(by_footholds);
   course.from_straight_line();
   course.from_ramp();
+  std::optional<KeptTrack> simple;
+  // Who asks to stop before there is a track wants none.
+  const bool may_answer = !course.stopped() || patience.out_of_time();
+  if (!course.kept() && may_answer) simple = simple_track(problem, options.limit_tolerance);
+  if (simple) course.from_track(*simple->track);
   report.ended_early = course.stopped();
+  if (!course.kept() && simple) {
+    answer_with_any(*simple, optimum);
+    report.message = simple_text(course.stopped());
+    return optimum;
+  }
   if (!course.kept()) {
     tell_none(std::move(conflict), certain, course.stopped(), report);
     return optimum;
   }
   tell_track(course, options, control, progress, report);
   optimum.centerline = course.best().track;
-  take_unlimited(problem, options, optimum);
+  const bool is_exact = take_unlimited(problem, options, optimum);
   take_ramp(problem, options, optimum);
-  const bool converged = report.first_order_residual <= options.tolerance && !course.stopped();
-  report.status = converged ? OptimizeStatus::optimal : OptimizeStatus::feasible_not_converged;
-  report.message = ended_text(problem.objective, report.status, course.stopped(), patience.out_of_time());
-  // Answers to neighbouring problems of the kind were out of order by up to 1.7e-3 (docs/optimization.md).
-  const bool winds = converged && winds_at_cap(*course.best().problem, *course.best().found);
-  if (winds) report.message += "; with bends elsewhere at the cap on the speed some 0.2 % may be left";
+  tell_end(problem, options, course, patience.out_of_time(), is_exact, optimum);
   return optimum;
 }
 

@@ -1,7 +1,11 @@
 #include "optimize/conflicts/energy_left.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
+
+#include "optimize/problem/scaled_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,15 +107,19 @@ std::optional<double> deepest(const Problem& problem) {
   return std::nullopt;
 }
 
+/// Limits hold at every friction of the range, so that its highest one tells; of one that changes, the least.
+Friction telling_friction(const Problem& problem) {
+  Friction friction = problem.high_friction.value_or(problem.body.friction);
+  for (const FrictionChange& change : problem.body.friction_changes)
+    friction = std::min(friction, change.friction);
+  return friction;
+}
+
 /// What friction leaves of the squared speed at a finish that is given; none where it says nothing.
 std::optional<double> most_square_left(const Problem& problem) {
   const double run = std::fabs(problem.endpoints.run);
   const double drop = problem.endpoints.drop;
-  // Limits hold at every friction of the range, so that its highest one tells; of one that changes, the least.
-  Friction friction = problem.high_friction.value_or(problem.body.friction);
-  for (const FrictionChange& change : problem.body.friction_changes)
-    friction = std::min(friction, change.friction);
-  const double mu = friction.coefficient();
+  const double mu = telling_friction(problem).coefficient();
   Slopes entry;
   entry.hold(problem.limits.slope_angle);
   Slopes exit = entry;
@@ -147,6 +155,33 @@ std::optional<double> least_speed_left(const Problem& problem) {
   }
   // The limits hold at every friction of the range, so that its least one tells.
   return left_at(problem, problem.low_friction.value_or(body.friction).coefficient());
+}
+
+double creeping_speed(const Problem& problem, double length) {
+  const double entry = problem.body.entry_speed;
+  return std::sqrt(kCreep * (2.0 * problem.gravity * length + entry * entry));
+}
+
+std::optional<Creep> creep_at_best(const Problem& problem) {
+  // Ten times what creeping takes, and as much again for drag.
+  constexpr double kEnough = 100.0;  // taste
+  if (problem.finish.kind != FinishKind::point) return std::nullopt;
+  const std::optional<double> most = most_speed_left(problem);
+  const Endpoints& ends = problem.endpoints;
+  const double chord = math::hypot(ends.run, ends.drop);
+  const double counted = creeping_speed(problem, chord);
+  if (!most || *most >= counted) return std::nullopt;
+  return Creep{*most, counted, ends.drop + kEnough * kCreep * chord};
+}
+
+std::string creep_text(const Creep& creep) {
+  constexpr int kDigits = 6;  // accuracy: it lies a ten-thousandth of the chord above the drop
+  return "no track brings the body to the finish faster than " + quantity_text(creep.most, Dimension::speed) +
+         ", and what arrives at less than " + quantity_text(creep.counted, Dimension::speed) +
+         " a search takes for lying still: drop and friction are so near to what ends the ride that tracks "
+         "cannot be told "
+         "apart; try a drop of " +
+         length_text(creep.enough, kDigits) + " or more, less friction or an entry speed";
 }
 
 }  // namespace glissade::optimizer

@@ -3,6 +3,7 @@
 #include "glissade/task/problem.hpp"
 
 #include <optional>
+#include <string>
 
 namespace glissade::optimizer {
 
@@ -26,5 +27,20 @@ namespace glissade::optimizer {
 /// @return none where there is no such bound: another body than a point, a wind from behind on a body with drag, a finish that
 ///         may lie as deep as one likes
 [[nodiscard]] std::optional<double> most_speed_left(const Problem& problem);
+
+/// What a search takes for lying still at the end of a track so long [m/s]: kCreep of the squared speed of free fall.
+[[nodiscard]] double creeping_speed(const Problem& problem, double length);
+
+/// The finish lies so near to what friction ends the ride at that no track, whatever its shape, brings the body there faster than
+/// what a search takes for lying still. The straight line may arrive; which track is better no search can tell.
+struct Creep {
+  double most = 0.0;     ///< what no track exceeds at the finish, as most_speed_left() [m/s]
+  double counted = 0.0;  ///< what a search takes for lying still there, at least [m/s]
+  double enough = 0.0;   ///< a drop that leaves tracks to be told apart [m]
+};
+/// @return none where a faster arrival is not ruled out, or the finish is free
+[[nodiscard]] std::optional<Creep> creep_at_best(const Problem& problem);
+/// @return "so near to ... that tracks cannot be told apart: ..., and what to try
+[[nodiscard]] std::string creep_text(const Creep& creep);
 
 }  // namespace glissade::optimizer

@@ -402,8 +402,6 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
   list.add_built_in(LimitId::not_shorter_than_chord, Measure::arc_length,
                     std::max(kShortest, out.lead_in + out.lead_out + 2.0 * kShortestCore));
   list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length, kLongest);
-  // A body that creeps at less than a millionth of free fall's squared speed is as good as lying still.
-  constexpr double kCreep = 1e-6;  // taste
   list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.

@@ -100,6 +100,9 @@ using Passages = std::vector<Passage>;
 /// leave hardly any track but the straight line, it is scaled() itself.
 [[nodiscard]] ScaledProblem roughly_scaled(const Problem& problem, const Passages& passages);
 
+/// A body that creeps at less than this share of free fall's squared speed is as good as lying still.
+inline constexpr double kCreep = 1e-6;  // taste
+
 /// Knots are added where friction changes.
 /// @param knots        of the core, by its length: 0 to 1
 /// @param core_length  about the length of the core [chords]
