@@ -324,4 +324,28 @@ TEST_CASE("a rate of curvature that leaves little more than arcs is no contradic
   }
 }
 
+TEST_CASE("a corner where no radius is asked for is as tight on one mesh as on the next") {
+  // Neighbours had corners 8 to 18 mm wide, as their meshes had it, and were out of order by 2e-5.
+  Problem problem;
+  problem.endpoints = {10.0, 4.43};
+  problem.body.friction = Friction::from_coefficient(0.041);
+  problem.low_friction = Friction::from_coefficient(0.0205);
+  problem.high_friction = Friction::from_coefficient(0.0656);
+  problem.body.drag_per_metre = 0.02735;
+  problem.objective.kind = ObjectiveKind::exit_speed;
+  problem.limits.waypoints = {{4.03, 2.41}};
+  problem.limits.slope_angle = {4.1 * kDegree, 58.1 * kDegree};
+  std::vector<double> longest{11.48, 11.489, 11.51, 11.53};
+  if (testing::thorough()) longest = {11.46, 11.47, 11.48, 11.489, 11.5, 11.51, 11.53, 11.6, 14.0};
+  double fastest = 0.0;
+  for (const double length : longest) {
+    problem.limits.arc_length.highest = length;
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(length, report.brief());
+    REQUIRE(report.status == OptimizeStatus::optimal);
+    CHECK(report.exit_speed >= fastest * (1.0 - 2e-6));
+    fastest = std::max(fastest, report.exit_speed);
+  }
+}
+
 }  // namespace order_test

@@ -143,6 +143,39 @@ std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vec
   return any ? std::optional(std::move(result)) : std::nullopt;
 }
 
+std::optional<MeshTrack> with_tighter_corners(const Transcription& track, const Vector& z) {
+  constexpr double kPart = 0.25;      // taste: as the crest's
+  constexpr double kTightest = 2e-5;  // taste: of the core, ten times a joint
+  constexpr double kCorner = 0.05;    // taste: [rad] that a piece turns by
+  const Layout& layout = track.layout();
+  MeshTrack result{track.mesh(), z};
+  Vector& knots = result.mesh.knots;
+  const auto turns = [&](std::size_t piece) {
+    const double width = knots[piece + 1] - knots[piece];
+    const double turn = 0.5 * width * std::fabs(z[layout.turn(piece)] + z[layout.turn(piece + 1)]);
+    return width < kShortest && turn > kCorner;
+  };
+  // Changes of friction hold knots in place, and have corners of their own.
+  if (track.has_fixed_pieces()) return std::nullopt;
+  bool any = false;
+  for (std::size_t first = 1; first + 2 < knots.size(); ++first) {
+    if (!turns(first)) continue;
+    std::size_t last = first;
+    while (last + 2 < knots.size() && turns(last + 1)) ++last;
+    const double from = knots[first];
+    const double to = knots[last + 1];
+    if (last + 2 < knots.size() && to - from > kTightest) {
+      for (std::size_t i = first; i <= last + 1; ++i) {
+        knots[i] = 0.5 * (from + to) + kPart * (knots[i] - 0.5 * (from + to));
+        if (i > first && i <= last) result.z[layout.turn(i)] /= kPart;
+      }
+      any = true;
+    }
+    first = last + 1;
+  }
+  return any ? std::optional(std::move(result)) : std::nullopt;
+}
+
 MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z) {
   constexpr double kPart = 0.25;  // taste: that of the knots behind it
   const Mesh& mesh = track.mesh();

@@ -32,6 +32,9 @@ struct MeshTrack {
 /// The same with the knots around each jump of the curvature closer together: what the ramp between them costs falls faster than
 /// the square of its width. @return none where there are none
 [[nodiscard]] std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vector& z);
+/// The same with each corner of the track, a bend within a few pieces as short as those that stand for a jump, a quarter as wide: where
+/// nothing asks for a radius how tight it is is up to the mesh. @return none where there are none
+[[nodiscard]] std::optional<MeshTrack> with_tighter_corners(const Transcription& track, const Vector& z);
 /// The same with a first piece a quarter as long, the crest there as much tighter: what falls off a place of rest looks the
 /// same on every scale.
 [[nodiscard]] MeshTrack with_shorter_beginning(const Transcription& track, const Vector& z);

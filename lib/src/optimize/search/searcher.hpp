@@ -172,6 +172,8 @@ class Searcher {
   [[nodiscard]] Found bent_at_finish(const ScaledProblem& problem, Found found);
   /// The same with shorter ramps for jumps of the curvature, where that is better.
   [[nodiscard]] Found with_short_ramps(const ScaledProblem& problem, Found found);
+  /// The same with corners ever tighter where no radius is asked for, as long as that pays: how tight they are would be up to the mesh.
+  [[nodiscard]] Found with_tight_corners(const ScaledProblem& problem, Found found);
   /// Pieces are halved where a finer mesh has much left to win.
   [[nodiscard]] Found halved(const ScaledProblem& problem, Found found);
 
