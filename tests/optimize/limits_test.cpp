@@ -277,9 +277,15 @@ TEST_CASE("next to the reach limit a search says that it cannot tell tracks apar
     CHECK_THAT(near.report.message,
                Contains("a search takes for lying still") && Contains("try a drop of 2.001"));
     CHECK(near.report.evaluations == 0);
+    CHECK_FALSE(near.report.finer_mesh_wins);
+    CHECK(near.report.convergence_text() == "how near an optimum it is did not come out");
     REQUIRE(near.centerline);
     CHECK(Motion(near.centerline, problem.body, problem.gravity).arrived());
   }
+  // A little further a search is made, which stays behind the straight line.
+  const Optimum between = beyond(3.2e-6);
+  CHECK(between.report.status == OptimizeStatus::feasible_not_converged);
+  CHECK_THAT(between.report.message, Contains("a search takes for lying still"));
   // A drop as large as it tells to try leaves an optimum to be found, much faster than the straight line.
   const Optimum told = beyond(5.1e-4);
   CHECK(told.report.status == OptimizeStatus::optimal);

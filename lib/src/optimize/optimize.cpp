@@ -619,6 +619,8 @@ void tell_end(const Problem& problem, const OptimizeOptions& options, const Cour
         "friction are so near to what ends the ride that it cannot tell whether another track is better; try "
         "a "
         "larger drop, less friction or an entry speed";
+    report.first_order_residual = HUGE_VAL;
+    report.finer_mesh_wins.reset();
     return;
   }
   // Answers to neighbouring problems of the kind were out of order by up to 1.7e-3 (docs/optimization.md).

@@ -84,6 +84,7 @@ std::string conflict_text(const Conflict& conflict) {
 }
 
 std::string OptimizeReport::convergence_text() const {
+  if (!std::isfinite(first_order_residual)) return "how near an optimum it is did not come out";
   const std::string residual = "first-order residual " + rounded_text(first_order_residual, 2);
   if (!finer_mesh_wins) return residual;
   // Less than the accuracy of the referee's own quadrature is nothing.

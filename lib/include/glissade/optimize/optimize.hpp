@@ -102,7 +102,8 @@ struct OptimizeReport {
   std::optional<double>
       unlimited_travel_time;  ///< exact optimum without limits, where the theory applies [s]
   /// Norm of the Lagrangian's gradient over that of the objective's, both in the metric of the Lagrangian's
-  /// Hessian; dimensionless. Half its square is about the relative time that could still be won nearby.
+  /// Hessian; dimensionless. Half its square is about the relative time that could still be won nearby. Infinite
+  /// where that did not come out.
   double first_order_residual = 0.0;
   /// What finer meshes would win, as a share of the objective, rather too much than too little: the residual is that
   /// of one mesh, and knows nothing of it. None where that was not looked at: without limits, or stopped early.
