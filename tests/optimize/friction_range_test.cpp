@@ -2,6 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/ore.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/thorough.hpp"
@@ -114,6 +115,36 @@ TEST_CASE("what is told as kept is kept at every friction of the range, whatever
     }
   }
   CHECK(told > 3 * problems);
+}
+
+TEST_CASE("of streams, too, what is told as kept is kept at every friction of the range") {
+  testing::Random random = testing::seeded_random(20250403);
+  INFO("GLISSADE_SEED=" << random.seed());
+  int told = 0;
+  for (int i = testing::thorough() ? 6 : 1; i > 0; --i) {
+    for (const ObjectiveKind kind :
+         {ObjectiveKind::travel_time, ObjectiveKind::even_speed, ObjectiveKind::least_peak_wear}) {
+      const double run = random.between(2.0, 5.0);
+      Problem problem = testing_problems::ore(run, run * random.between(0.9, 1.3), random.between(1.5, 4.0));
+      problem.gravity = kGravity;
+      problem.low_friction = Friction::from_coefficient(0.44);
+      problem.high_friction = Friction::from_coefficient(random.between(0.52, 0.6));
+      problem.objective.kind = kind;
+      problem.limits.smallest_valley_radius = random.between(1.0, 3.0);
+      problem.limits.highest_normal_load = kGravity * random.between(1.5, 3.0);
+      problem.limits.speed.highest =
+          std::sqrt(2.0 * kGravity * problem.endpoints.drop) * random.between(0.7, 1.0);
+      OptimizeOptions options;
+      options.time_budget = testing::thorough() ? 6.0 : 2.0;
+      const Optimum optimum = optimize(problem, options);
+      CAPTURE(i, static_cast<int>(kind), optimum.report.brief());
+      if (!optimum.centerline) continue;
+      ++told;
+      for (const LimitCheck& check : optimum.report.checks) CHECK(check.kept());
+      check_rides(problem, optimum.centerline);
+    }
+  }
+  CHECK(told > 0);
 }
 
 TEST_CASE("a least bound is found for the friction at which the body arrives slowest") {
