@@ -15,6 +15,7 @@
 #include "app/limits_text.hpp"
 #include "app/option_value.hpp"
 #include "app/progress_line.hpp"
+#include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
 #include "app/time_budget.hpp"
@@ -399,10 +400,13 @@ ExitCode compare(const CompareArguments& options) {
   if (!options.csv.empty()) write_text(options.csv, curves_csv(comparison.entries));
   if (options.json) {
     print(json_of(options, design, comparison.entries));
-    return ExitCode::done;
+  } else {
+    print(emphasised(comparison.heading, Emphasis::heading) + "\n  " + comparison.task + "\n\n" +
+          comparison.table.text());
   }
-  print(emphasised(comparison.heading, Emphasis::heading) + "\n  " + comparison.task + "\n\n" +
-        comparison.table.text());
+  for (const Entry& entry : comparison.entries) {
+    if (entry.track) require_searched_through(entry.design, *entry.track);
+  }
   return ExitCode::done;
 }
 

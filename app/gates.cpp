@@ -8,8 +8,10 @@
 #include "app/console.hpp"
 #include "app/gates_text.hpp"
 #include "app/option_value.hpp"
+#include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 #include "app/usage_problem.hpp"
 
@@ -46,6 +48,8 @@ struct GatesArguments {
   std::string csv;
   bool slopes = false;
   bool json = false;
+  TimeBudget time_budget;
+  Verbosity verbosity;
 };
 
 /// The speeds at the measuring place, of the gates that have one.
@@ -162,7 +166,7 @@ ExitCode show_gates(const CLI::App& command, const GatesArguments& options) {
     throw InputError({design.where("centerline"), "the design has no gates", "",
                       "gates: {count: 49}; with a centerline that is no in-run, their start_area too"});
   }
-  const Track track = solve(design);
+  const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   const std::string asked = answers(options, design, track);
   if (options.json) {
     print(track_json(design, track));
@@ -176,6 +180,7 @@ ExitCode show_gates(const CLI::App& command, const GatesArguments& options) {
   }
   if (!options.csv.empty()) write_gates_csv(options.csv, *track.gates);
   require_arrivals(design, *track.gates);
+  require_searched_through(design, track);
   return ExitCode::done;
 }
 
@@ -196,6 +201,8 @@ void add_gates(CLI::App& program, Action& action) {
   command.add_flag("--slopes", options->slopes,
                    "Tell how the speed answers to friction, drag and length of in-run instead");
   add_json_flag(command, options->json, "the table");
+  options->time_budget.add_to(command);
+  options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action, &command] {
     action = [options, &command] { return show_gates(command, *options); };
   });

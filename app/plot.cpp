@@ -9,8 +9,8 @@
 #include "glissade/report/ride_figure.hpp"
 
 #include "app/command_line.hpp"
-#include "app/interrupt.hpp"
-#include "app/progress_line.hpp"
+#include "app/searched_track.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
 #include <filesystem>
@@ -132,9 +132,7 @@ ExitCode plot(const PlotArguments& options) {
   std::vector<RideQuantity> quantities;
   for (const std::string& text : options.what) quantities.push_back(quantity_named(text));
   const Design design = options.input.design();
-  const Interrupt interrupt;
-  ProgressLine progress(options.verbosity);
-  const Track track = solve(design, interrupt.context(progress.callback()));
+  const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   std::vector<Figure> figures;
   for (const RideQuantity quantity : quantities) {
     figures.push_back(figure_of(quantity, design, track));
@@ -146,6 +144,7 @@ ExitCode plot(const PlotArguments& options) {
   } else {
     write_atomically(file, svg);
   }
+  require_searched_through(design, track);
   return ExitCode::done;
 }
 
@@ -166,6 +165,7 @@ void add_plot(CLI::App& program, Action& action) {
       ->type_name("FILE")
       ->required()
       ->group("Options");
+  options->time_budget.add_to(command);
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return plot(*options); }; });
 }

@@ -6,10 +6,10 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
-#include "app/interrupt.hpp"
 #include "app/option_value.hpp"
-#include "app/progress_line.hpp"
+#include "app/searched_track.hpp"
 #include "app/table.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
 #include <algorithm>
@@ -44,6 +44,7 @@ struct ProfileArguments {
   std::string step;
   std::string row = "arc-length";
   std::vector<std::string> offsets;
+  TimeBudget time_budget;
   Verbosity verbosity;
 };
 
@@ -85,11 +86,7 @@ ProfileOptions options_of(const ProfileArguments& options) {
 ExitCode draw_profile(const ProfileArguments& options) {
   const ProfileOptions wanted = options_of(options);
   const Design design = options.design.read();
-  const Track track = [&] {
-    const Interrupt interrupt;
-    ProgressLine progress(options.verbosity);
-    return solve(design, interrupt.context(progress.callback()));
-  }();
+  const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   const std::size_t stations = coordinate_table(design, track, wanted).size();
   const std::filesystem::path folder = options.directory.empty()
                                            ? std::filesystem::path("out") / design.file.stem()
@@ -98,6 +95,7 @@ ExitCode draw_profile(const ProfileArguments& options) {
   print(labelled("Section", files[0].generic_string()) + labelled("Sheets", files[1].generic_string()) +
         labelled("Coordinates", files[2].generic_string() + ", " + std::to_string(stations) + " stations") +
         (files.size() > 3 ? labelled("Cross-section", files[3].generic_string()) : ""));
+  require_searched_through(design, track);
   return ExitCode::done;
 }
 
@@ -123,6 +121,7 @@ void add_profile(CLI::App& program, Action& action) {
       ->type_name("NAME=LENGTH")
       ->take_all()
       ->allow_extra_args(false);
+  options->time_budget.add_to(command);
   options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return draw_profile(*options); }; });
 }

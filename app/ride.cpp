@@ -5,10 +5,9 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
-#include "app/interrupt.hpp"
 #include "app/option_value.hpp"
-#include "app/progress_line.hpp"
 #include "app/rides_text.hpp"
+#include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
@@ -109,17 +108,13 @@ std::string rides_summary(const Design& design, const Track& track, const std::v
 ExitCode ride_track(const RideArguments& options) {
   const std::vector<Friction> frictions = frictions_of(options);
   const Design design = read_design(options.design, options.overrides.values());
-  const Track track = [&] {
-    const Interrupt interrupt;
-    ProgressLine progress(options.verbosity);
-    return solve(design, interrupt.context(progress.callback(), options.time_budget.seconds()));
-  }();
+  const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   std::vector<Track> rides;
   rides.reserve(frictions.size());
   const Design solved = as_solved(design, track);
   for (const Friction friction : frictions) rides.push_back(ride_at(solved, track.centerline, friction));
   print(options.json ? rides_json(design, track, rides) : rides_summary(design, track, rides));
-  if (const auto problem = search_problem(design, track)) throw ConvergenceError(*problem);
+  require_searched_through(design, track);
   return ExitCode::done;
 }
 

@@ -11,6 +11,7 @@
 #include "app/interrupt.hpp"
 #include "app/progress_line.hpp"
 #include "app/rules_text.hpp"
+#include "app/searched_track.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 #include "app/usage_problem.hpp"
@@ -97,11 +98,12 @@ ExitCode list_rules(const RulesArguments& options) {
 
 /// What rules say of a design: of its track, and of what a workshop makes of it.
 struct Verdicts {
-  std::vector<Judgement> track;
+  Track track;
+  std::vector<Judgement> rules;               ///< of the track
   std::shared_ptr<const WorkshopBuild> made;  ///< none of a design without a fabrication
 
   [[nodiscard]] bool fail() const {
-    if (worst(track) == RuleVerdict::fail) return true;
+    if (worst(rules) == RuleVerdict::fail) return true;
     return made != nullptr &&
            std::any_of(made->workshop.checks.begin(), made->workshop.checks.end(),
                        [](const ShopCheck& check) { return check.verdict == ShopVerdict::fail; });
@@ -112,10 +114,9 @@ Verdicts judged(const Design& design, const RulesArguments& options) {
   const Interrupt interrupt;
   ProgressLine progress(options.verbosity);
   const RunContext context = interrupt.context(progress.callback(), options.time_budget.seconds());
-  const Track track = solve(design, context);
-  Verdicts verdicts;
-  verdicts.track = judge_rules(design, track);
-  if (design.fabrication) verdicts.made = assemble(design, track, context).fabrication;
+  Verdicts verdicts{solve(design, context), {}, nullptr};
+  verdicts.rules = judge_rules(design, verdicts.track);
+  if (design.fabrication) verdicts.made = assemble(design, verdicts.track, context).fabrication;
   return verdicts;
 }
 
@@ -126,17 +127,19 @@ ExitCode judge_design(const RulesArguments& options) {
                       "rules: {sets: [...]} in it; 'glissade rules' lists the sets"});
   }
   const Verdicts verdicts = judged(design, options);
-  if (!options.csv.empty()) write_verdicts_csv(options.csv, verdicts.track);
+  if (!options.csv.empty()) write_verdicts_csv(options.csv, verdicts.rules);
   if (options.json) {
-    print(verdicts_json(design, verdicts.track, verdicts.made ? &verdicts.made->workshop.checks : nullptr));
+    print(verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr));
   } else {
     const std::string heading = design.name.empty() ? std::string("Track") : design.name;
     std::string text = emphasised(heading, Emphasis::heading) + "\n";
-    if (!verdicts.track.empty()) text += "\n" + verdicts_table(verdicts.track);
+    if (!verdicts.rules.empty()) text += "\n" + verdicts_table(verdicts.rules);
     if (verdicts.made) text += "\n" + shop_table(verdicts.made->workshop.checks);
     print(text);
   }
-  return verdicts.fail() ? ExitCode::faulty : ExitCode::done;
+  if (verdicts.fail()) return ExitCode::faulty;
+  require_searched_through(design, verdicts.track);
+  return ExitCode::done;
 }
 
 ExitCode list_quantities(const CLI::App& command, const RulesArguments& options) {

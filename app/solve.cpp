@@ -4,9 +4,8 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
-#include "app/interrupt.hpp"
 #include "app/option_value.hpp"
-#include "app/progress_line.hpp"
+#include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
@@ -44,22 +43,16 @@ struct SolveArguments {
   bool json = false;
 };
 
-Track solved(const Design& design, const SolveArguments& options) {
-  const Interrupt interrupt;
-  ProgressLine progress(options.verbosity);
-  return solve(design, interrupt.context(progress.callback(), options.time_budget.seconds()));
-}
-
 void require_sound(const Design& design, const Track& track) {
   if (const auto problem = ride_problem(design, track)) throw InfeasibleError(*problem);
   if (const auto problem = limits_problem(design, track)) throw InfeasibleError(*problem);
-  if (const auto problem = search_problem(design, track)) throw ConvergenceError(*problem);
+  require_searched_through(design, track);
 }
 
 ExitCode solve_track(const SolveArguments& options) {
   const Design design = options.input.design();
   try {
-    const Track track = solved(design, options);
+    const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
     print(options.json ? track_json(design, track) : track_summary(design, track));
     if (!options.csv.empty()) write_track_csv(options.csv, track);
     if (!options.frozen.empty()) write_frozen_design(options.frozen, design, track);

@@ -10,8 +10,10 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/option_value.hpp"
+#include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
+#include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
 #include <cmath>
@@ -48,6 +50,8 @@ struct SurveyArguments {
   std::string csv;
   std::string svg;
   bool json = false;
+  TimeBudget time_budget;
+  Verbosity verbosity;
 };
 
 SurveyOptions options_of(const SurveyArguments& options) {
@@ -143,7 +147,7 @@ std::string survey_summary(const Design& design, const Survey& survey, const Sur
 ExitCode survey(const SurveyArguments& options) {
   const SurveyOptions wanted = options_of(options);
   const Design design = options.design.read();
-  const Track track = solve(design);
+  const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   const Survey found = survey_of(*track.centerline, read_survey(options.points, track.placement), wanted);
   const SurveyRides rides = ride_survey(track.centerline, found, track.motion.body(), design.gravity);
   print(options.json ? survey_json(design, found, rides, wanted)
@@ -154,7 +158,9 @@ ExitCode survey(const SurveyArguments& options) {
     file.write(figures_svg(survey_figures(track, found, rides, wanted)));
     file.commit();
   }
-  return found.sound() ? ExitCode::done : ExitCode::faulty;
+  if (!found.sound()) return ExitCode::faulty;
+  require_searched_through(design, track);
+  return ExitCode::done;
 }
 
 }  // namespace
@@ -180,6 +186,8 @@ void add_survey(CLI::App& program, Action& action) {
   add("--csv", options->csv, "FILE", "Write the table");
   add("--svg", options->svg, "FILE", "Draw deviation, slope angle and speed along the track");
   add_json_flag(command, options->json, "the table");
+  options->time_budget.add_to(command);
+  options->verbosity.add_to(command, "Show no progress");
   command.callback([options, &action] { action = [options] { return survey(*options); }; });
 }
 

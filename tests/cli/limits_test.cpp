@@ -338,6 +338,21 @@ TEST_CASE("a search that runs out of time says so, with exit code 4") {
   const json track = solved(simple);
   for (const auto& [key, value] : track.items()) CHECK(none.contains(key));
   CHECK(solve(file, {"--time-budget", "-1s"}).exit_code == 2);
+  // Commands that draw or judge what the search found say so, too, once they have done it.
+  const TempDir place;
+  const auto asked = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--time-budget", "0.01ms"});
+    const Outcome of_track = glissade_run(arguments, {place.path(), {}, {}});
+    CAPTURE(arguments.front(), of_track.output);
+    CHECK(of_track.exit_code == 4);
+    CHECK_THAT(of_track.errors, Contains("ended early: ") && Contains("a larger --time-budget"));
+  };
+  asked({"plot", simple.path(), "-o", "p.svg"});
+  CHECK(std::filesystem::file_size(place / "p.svg") > 1000);
+  asked({"profile", simple.path(), "-d", "sheets"});
+  CHECK(std::filesystem::exists(place / "sheets"));
+  asked({"compare", simple.path()});
+  asked({"ride", simple.path(), "--friction-coefficient", "0.02"});
   const Outcome unit = solve(file, {"--time-budget", "10deg"});
   CHECK(unit.exit_code == 2);
   CHECK_THAT(unit.errors, Contains("--time-budget: 10deg is an angle, not a time"));

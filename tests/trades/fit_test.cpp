@@ -192,6 +192,34 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
                     Contains("1 speeds do not tell 2 parameters"));
 }
 
+TEST_CASE("a speed far beyond free fall is told as that, unless a wind from behind may have given it") {
+  const TempDir place;
+  const auto told = [&](const std::string& rows, Body (*changed)(Body)) -> std::string {
+    put_bytes(place / "speeds.csv", "gate,speed_m_per_s\n" + rows);
+    const SpeedSheet sheet = read_speeds(place / "speeds.csv", designs_path("hills/garmisch_hs142.yaml"));
+    try {
+      static_cast<void>(
+          fit_speeds(sheet.readings, changed(sheet.body), {std::nullopt, 0.0013}, sheet.gravity));
+    } catch (const InputError& error) {
+      return error.what();
+    } catch (const Error&) {
+      return "another reason";
+    }
+    return "";
+  };
+  const auto as_is = [](Body body) { return body; };
+  // 92 km/h in a column of m/s.
+  CHECK_THAT(told("1,23.6\n49,92\n", as_is), Contains("92 m/s is more than free fall gives, ") &&
+                                                 Contains("speed_km_h where that is the unit"));
+  CHECK(told("1,22.6\n49,26.5\n", as_is).empty());
+  const auto pushed = [](Body body) {
+    body.head_wind = -30.0;
+    return body;
+  };
+  CHECK(told("1,33\n49,36\n", as_is) != "");
+  CHECK_THAT(told("1,33\n49,36\n", pushed), !Contains("free fall"));
+}
+
 TEST_CASE("speeds of one gate at one place do not tell friction and drag apart") {
   const TempDir place;
   put_bytes(place / "speeds.csv", "gate,speed_km_h\n1,85\n1,85\n1,85\n1,85\n");

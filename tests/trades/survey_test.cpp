@@ -189,6 +189,9 @@ TEST_CASE("a survey in site coordinates is turned into the plane of a track that
   CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement),
                     Contains("bad.csv:1: two columns are called \"z\""));
   put_bytes(folder / "named.csv", "x,z,name\n1,5,\"A, left\"\n1,5,,\n");
+  put_bytes(folder / "bad.csv", "x,z\n");
+  CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement),
+                    Contains("bad.csv: there are no points in the file") && Contains("a line a point"));
   const std::vector<SurveyPoint> named = read_survey(folder / "named.csv", track.placement);
   CHECK(named[0].name == "A, left");
   CHECK_THAT(named[1].name, Contains("named.csv:3"));

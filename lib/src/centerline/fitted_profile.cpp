@@ -110,11 +110,13 @@ std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
     return ProfileFault{index, {point_text(points, index), std::move(what), std::move(why), std::move(hint)}};
   };
   if (points.size() < 3) {
-    const std::string count =
-        points.size() == 1 ? "there is 1" : "there are " + std::to_string(points.size());
-    return ProfileFault{{},
-                        {"points", count + " of them", "A curve needs at least 3 points.",
-                         "more points; between two, the kind straight"}};
+    const std::string count = points.empty() ? "there are none"
+                              : points.size() == 1
+                                  ? "there is 1 of them"
+                                  : "there are " + std::to_string(points.size()) + " of them";
+    return ProfileFault{
+        {},
+        {"points", count, "A curve needs at least 3 points.", "more points; between two, the kind straight"}};
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {

@@ -1,5 +1,6 @@
 #include "glissade/pipeline/surveys.hpp"
 
+#include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/version.hpp"
@@ -33,6 +34,11 @@ std::vector<SurveyPoint> read_survey(const std::filesystem::path& file, const Pl
     point.aside = columns.has("y") ? y * math::cos(azimuth) - x * math::sin(azimuth) : 0.0;
     point.drop = start.z - columns.number(row, "z");
     points.push_back(std::move(point));
+  }
+  if (points.empty()) {
+    throw FileError({file.string(), "there are no points in the file",
+                     "The first line names the columns, each other one is a point.",
+                     "a line a point, every 2 m along the track"});
   }
   return points;
 }

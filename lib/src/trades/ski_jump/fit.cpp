@@ -47,7 +47,23 @@ double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
                     "A speed is compared where it was measured.", "less friction to begin with"});
 }
 
-void require_readings(const std::vector<SpeedReading>& readings, std::size_t parameters) {
+/// No fit explains a speed that is far beyond free fall: it is of another unit, or of another place.
+/// @param body  that rides; a wind from behind may push it
+void require_below_free_fall(const SpeedReading& reading, const Body& body, double gravity) {
+  constexpr double kBeyond = 1.05;  // taste: what a measurement is off by at most
+  const double drop = reading.track->at(reading.place).drop - reading.track->at(reading.from_start).drop;
+  const double most = std::sqrt(std::max(body.entry_speed * body.entry_speed + 2.0 * gravity * drop, 0.0));
+  if (body.head_wind < 0.0 || reading.speed <= kBeyond * most) return;
+  throw InputError({"",
+                    reading.name + ": " + rounded_text(reading.speed, 4) +
+                        " m/s is more than free fall gives, " + rounded_text(most, 4) + " m/s",
+                    "Between the gate and that place the body falls by " + length_text(drop, 4) + ".",
+                    "the column speed_km_h where that is the unit; the gate or the length of the ride; the "
+                    "design ridden"});
+}
+
+void require_readings(const std::vector<SpeedReading>& readings, std::size_t parameters, const Body& body,
+                      double gravity) {
   if (readings.size() < parameters) {
     throw InputError({"",
                       std::to_string(readings.size()) + " speeds do not tell " + std::to_string(parameters) +
@@ -59,7 +75,10 @@ void require_readings(const std::vector<SpeedReading>& readings, std::size_t par
   for (const SpeedReading& reading : readings) {
     const bool in_place = reading.from_start >= 0.0 && reading.place > reading.from_start &&
                           reading.place <= reading.track->length();
-    if (in_place && reading.speed > 0.0 && std::isfinite(reading.speed)) continue;
+    if (in_place && reading.speed > 0.0 && std::isfinite(reading.speed)) {
+      require_below_free_fall(reading, body, gravity);
+      continue;
+    }
     throw InputError(
         {"",
          reading.name + ": " +
@@ -227,7 +246,8 @@ double rms_of(const std::vector<SpeedResidual>& residuals) {
 SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
                     const SpeedFitOptions& options, double gravity) {
   require_readings(readings,
-                   static_cast<std::size_t>(!options.friction) + static_cast<std::size_t>(!options.drag));
+                   static_cast<std::size_t>(!options.friction) + static_cast<std::size_t>(!options.drag),
+                   body, gravity);
   return Fit(readings, body, options, gravity).run();
 }
 

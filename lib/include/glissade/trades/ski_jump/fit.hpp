@@ -53,8 +53,9 @@ struct SpeedFitOptions {
 /// derivatives. End speeds tell friction and drag apart badly: their correlation is near -1, and the sum of what both take
 /// away is known much better than either.
 /// @param body     everything else about the body: height of the centre of mass, wind
-/// @throws InputError if there are fewer readings than parameters, a reading has no track or is out of its range, no ride
-///   arrives, or rides of one length to one place do not tell friction and drag apart
+/// @throws InputError if there are fewer readings than parameters, a reading has no track, is out of its range or a
+///   twentieth above free fall (unless the wind comes from behind), no ride arrives, or rides of one length to one place do not
+///   tell friction and drag apart
 /// @throws ConvergenceError if the iteration does not settle
 [[nodiscard]] SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
                                   const SpeedFitOptions& options = {}, double gravity = kDefaultGravity);
