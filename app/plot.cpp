@@ -39,6 +39,7 @@ struct PlotArguments {
   TrackInput input{TrackInput::Scope::one_kind};
   std::vector<std::string> what = {"profile"};
   std::string output;
+  TimeBudget time_budget;
   Verbosity verbosity;
 };
 
