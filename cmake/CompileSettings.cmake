@@ -14,7 +14,9 @@ set(joined $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
 target_compile_options(glissade_compile_settings INTERFACE
   $<$<NOT:${joined}>:-Wshadow>
   $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>
-  $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>)
+  $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wno-subobject-linkage>
+  # Where much is inlined GCC 12 takes an empty std::optional's inside for something that is read.
+  $<$<AND:${joined},$<CXX_COMPILER_ID:GNU>>:-Wno-maybe-uninitialized>)
 if(GLISSADE_WARNINGS_AS_ERRORS)
   target_compile_options(glissade_compile_settings INTERFACE -Werror)
 endif()
