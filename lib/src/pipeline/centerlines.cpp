@@ -1,0 +1,164 @@
+// The centerline of every kind that a design may name, made of what it says of it.
+
+#include "glissade/centerline/constant_speed_curve.hpp"
+#include "glissade/centerline/cycloid.hpp"
+#include "glissade/centerline/drawn_track.hpp"
+#include "glissade/centerline/fastest_track.hpp"
+#include "glissade/centerline/fitted_profile.hpp"
+#include "glissade/centerline/in_run.hpp"
+#include "glissade/centerline/no_curvature_load.hpp"
+#include "glissade/centerline/straight_line.hpp"
+#include "glissade/centerline/tabulated_curve.hpp"
+#include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
+#include "glissade/io/profile_csv.hpp"
+#include "glissade/pipeline/solve.hpp"
+
+#include "pipeline/body.hpp"
+#include "pipeline/located.hpp"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace glissade {
+
+using namespace pipeline;
+
+namespace {
+
+/// The track on which a stream keeps the speed at which it enters, and with it its depth and its friction.
+/// @throws InputError if at that speed there is none, with the entry speed from which on there is
+CenterlinePtr make_even_depth(const Design& design, const Endpoints& endpoints) {
+  const Body body = body_of(design);
+  const auto friction_at = [&](double speed) {
+    return Friction::from_coefficient(body.law->resistance(0.0, speed * speed).factor *
+                                      body.friction.coefficient());
+  };
+  const double entry = body.entry_speed;
+  // A faster stream is thinner and rubs less: the least speed is a fixed point that a few steps find.
+  double needed = entry;
+  for (int i = 0; i < 20; ++i) {
+    needed = std::sqrt(ConstantSpeedCurve::smallest_p(endpoints, friction_at(needed), design.gravity));
+  }
+  if (entry >= needed) {
+    return std::make_shared<ConstantSpeedCurve>(endpoints, friction_at(entry), design.gravity, entry * entry);
+  }
+  throw InputError(
+      {design.where("body.entry_speed"),
+       "entry_speed: no track between these points keeps a stream at " + rounded_text(entry, 4) + " m/s",
+       "Slower than " + rounded_text(needed, 4) +
+           " m/s it would have to start steeper than vertical to give off enough energy: even "
+           "burden depth is the constant-speed curve (docs/chutes.md).",
+       "an entry_speed of at least " + rounded_text(needed * (1.0 + 1e-3), 4) +
+           " m/s, ends less steep, or kind: fastest"});
+}
+
+CenterlinePtr make_constant_speed(const Design& design, const Endpoints& endpoints) {
+  const Friction friction = design.body.friction;
+  if (const auto p = design.centerline.constant_speed_p) {
+    return std::make_shared<ConstantSpeedCurve>(endpoints, friction, design.gravity, *p);
+  }
+  if (design.stream) return make_even_depth(design, endpoints);
+  return std::make_shared<ConstantSpeedCurve>(
+      ConstantSpeedCurve::fastest(endpoints, friction, design.gravity, design.body.entry_speed));
+}
+
+CenterlinePtr make_segments(const Design& design) {
+  DrawnSegments drawn = drawn_segments(design.track, design.centerline);
+  if (drawn.fault) throw InputError(std::move(drawn.fault->issue));
+  return joined(design.centerline.entry_slope_angle, drawn.segments);
+}
+
+/// A fault of a file's points, at their line.
+[[noreturn]] void refuse_point(const CenterlineDesign& design, const ProfilePoints& profile, Issue issue,
+                               std::optional<std::size_t> point) {
+  issue.where = design.points_file.string();
+  if (point) issue.where += ":" + std::to_string(profile.lines[*point]);
+  throw InputError(std::move(issue));
+}
+
+/// Points that say how the track leads on from each: nothing is fitted.
+CenterlinePtr make_tabulated(const CenterlineDesign& design, const ProfilePoints& profile) {
+  std::vector<TabulatedPoint> rows;
+  rows.reserve(profile.points.size());
+  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+    const Vec2 place = profile.points[i];
+    rows.push_back({place.x, place.y, profile.slope_angles[i], profile.curvatures[i]});
+  }
+  if (const auto fault = table_fault(rows)) refuse_point(design, profile, fault->issue, fault->row);
+  return std::make_shared<TabulatedCurve>(std::move(rows));
+}
+
+ProfilePoints read_points(const CenterlineDesign& design) {
+  const ProfileCsvOptions options{design.points_distance_column, design.points_height_column,
+                                  design.points_unit, design.points_slope_angle_column,
+                                  design.points_curvature_column};
+  ProfilePoints profile = read_profile_csv(design.points_file, options);
+  if (auto fault = distance_fault(profile, options)) {
+    fault->where = design.points_file.string();
+    throw InputError(*std::move(fault));
+  }
+  return profile;
+}
+
+std::shared_ptr<const FittedProfile> fit_points(const CenterlineDesign& design, ProfilePoints profile) {
+  if (const auto fault = profile_fault(profile.points)) {
+    refuse_point(design, profile, fault->issue, fault->point);
+  }
+  return std::make_shared<FittedProfile>(std::move(profile.points), ProfileFit{design.points_max_deviation});
+}
+
+CenterlinePtr make_points(const Design& design) {
+  ProfilePoints points = read_points(design.centerline);
+  CenterlinePtr track;
+  double deviation = 0.0;
+  if (points.curvatures.empty()) {
+    const auto profile = fit_points(design.centerline, std::move(points));
+    deviation = profile->max_deviation();
+    track = profile;
+  } else {
+    track = make_tabulated(design.centerline, points);
+  }
+  if (!design.track.finish_given) return track;
+  const Endpoints end = track->endpoints();
+  auto missed = missed_finish(design.track, "the points", {end.run, end.drop}, deviation);
+  if (!missed) return track;
+  missed->where = design.where("track.finish");
+  throw InputError(*std::move(missed));
+}
+
+CenterlinePtr make_of_kind(const Design& design) {
+  const Endpoints endpoints = endpoints_of(design);
+  const Friction friction = design.body.friction;
+  switch (design.centerline.kind) {
+    case CenterlineKind::fastest:
+      return fastest_track(endpoints, friction, design.body.entry_speed, design.gravity).centerline;
+    case CenterlineKind::constant_speed:
+      return make_constant_speed(design, endpoints);
+    case CenterlineKind::straight:
+      return std::make_shared<StraightLine>(endpoints);
+    case CenterlineKind::cycloid:
+      return std::make_shared<Cycloid>(endpoints);
+    case CenterlineKind::no_curvature_load:
+      return std::make_shared<NoCurvatureLoadCurve>(endpoints, friction);
+    case CenterlineKind::segments:
+      return make_segments(design);
+    case CenterlineKind::points:
+      return make_points(design);
+    case CenterlineKind::in_run:
+      return std::make_shared<InRun>(design.centerline.in_run.shape());
+  }
+  throw InternalError({"", "a centerline of this kind cannot be made", "", ""});
+}
+
+}  // namespace
+
+CenterlinePtr make_centerline(const Design& design) {
+  return at_place(design.where("centerline"), [&] { return make_of_kind(design); });
+}
+
+}  // namespace glissade
