@@ -6,6 +6,7 @@
 #include "optimize/places.hpp"
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
+#include "support/thorough.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -127,6 +128,7 @@ TEST_CASE("a clearance before the edge that is relaxed never asks for a higher s
 }
 
 TEST_CASE("the least load under a bridge, kept as a limit, needs just the height that it was found from") {
+  if (!testing::thorough()) return;  // without the bridge free_ends_test.cpp holds it
   Problem gentle = lowest_in_run();
   gentle.limits.keep_outs.push_back(bridge(lowest_of_all(), 0.2));
   Problem lowest = gentle;

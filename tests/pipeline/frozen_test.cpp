@@ -264,7 +264,10 @@ TEST_CASE("what a search of any objective found is solved and judged the same wh
        high + "waypoints: [[-5 m, 1.6 m]], half_planes: [{line: [[-40 m, -1 m], [1 m, -1 m]], stay: above}], "
               "stay_above: [{line: [[-40 m, -2 m], [1 m, -2 m]]}], objective: least_drop"}};
   const TempDir directory;
+  int number = 0;
   for (const Sought& sought : all) {
+    // Every other one, elsewhere than in CI.
+    if (number++ % 2 == 1 && !testing::thorough()) continue;
     INFO(sought.track << ", " << sought.limits);
     const std::string of_stream =
         "body: {friction_coefficient: {low: 0.28, nominal: 0.3, high: 0.32}, entry_speed: 2 m/s}\n"
@@ -373,6 +376,8 @@ TEST_CASE(
   for (const std::string& text :
        {near(6.0, 1.9, "friction_angle: 17 deg"), near(3.0, 0.927, "friction_coefficient: 0.3"),
         near(3.0, 0.909, "friction_coefficient: 0.3"), near(3.0, 0.900001, "friction_coefficient: 0.3")}) {
+    // Outside CI the nearest of those that arrive by more than rounding.
+    if (text.find("0.909") == std::string::npos && !testing::thorough()) continue;
     INFO(text);
     const TempDir directory;
     const Design design = parse_design(text, "near.yaml");

@@ -3,6 +3,7 @@
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
 
+#include "pipeline/track_document.hpp"
 #include "support/catch.hpp"
 #include "support/thorough.hpp"
 
@@ -75,6 +76,28 @@ TEST_CASE("a design without a track has all keys of one that has one") {
     REQUIRE(json::parse(without)["travel_time_s"].is_null());
     CHECK(keys_of(with) == keys_of(without));
   }
+}
+
+// What warnings look for, such as room for the section along the track, takes longer than all else that a row of a sweep needs.
+TEST_CASE("figures of a track alone are its numbers, without what warnings and rules have to say") {
+  const std::string text =
+      std::string("glissade: 1\n") + kEnds + kSection + kStream +
+      "body: {friction_angle: {low: 25 deg, nominal: 27 deg, high: 28 deg}, entry_speed: 2 m/s}\n"
+      "centerline: {kind: straight}\n"
+      "probes: [{x: 50 m}]\nrules: {sets: [chute]}\n";
+  const Design design = parse_design(text, "d.yaml");
+  const Track track = solve(design);
+  auto whole = pipeline::track_document(design, track);
+  auto figures = pipeline::track_document(design, track, pipeline::Told::figures_and_stall_margin);
+  REQUIRE_FALSE(whole["warnings"].empty());
+  REQUIRE_FALSE(whole["rules"].empty());
+  for (const char* const key : {"warnings", "rules", "verdicts", "cases"}) {
+    CHECK(figures[key].is_array());
+    CHECK(figures[key].empty());
+    whole.erase(key);
+    figures.erase(key);
+  }
+  CHECK(figures == whole);
 }
 
 }  // namespace json_keys_test

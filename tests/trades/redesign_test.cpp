@@ -8,6 +8,7 @@
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -309,6 +310,8 @@ TEST_CASE("shapes that bend where gates lie are told") {
 TEST_CASE("every goal is met from the height or the speed of the certificate, and no worse than it") {
   const Design design = garmisch_design();
   for (const RedesignGoal goal : redesign_goals()) {
+    // Of the two that are looked for between bounds one, elsewhere than in CI.
+    if (goal == RedesignGoal::least_curvature_rate && !testing::thorough()) continue;
     RedesignOptions options;
     options.goal = goal;
     const Redesign found = redesign(design, options, {});

@@ -109,13 +109,13 @@ Json clearances_from_json(const Design& design) {
   return envelope_of(design).is_line() ? "centerline" : "solid";
 }
 
-Json rides_of(const Track& track, pipeline::StallMargin margin) {
+Json rides_of(const Track& track, pipeline::Told told) {
   const std::optional<Angle> stall_angle =
-      margin == pipeline::StallMargin::yes ? stall_angle_of(track) : std::nullopt;
+      told != pipeline::Told::figures ? stall_angle_of(track) : std::nullopt;
   Json rides = Json::array();
   for (const LevelRide& ride : track.rides()) {
     // The nominal ride is the track's own: without a margin it says nothing new.
-    if (margin == pipeline::StallMargin::no && ride.level == FrictionLevel::nominal) continue;
+    if (told == pipeline::Told::figures && ride.level == FrictionLevel::nominal) continue;
     rides.push_back(ride_json(ride.level, *ride.motion, stall_angle));
   }
   return rides;
@@ -236,7 +236,7 @@ void add_hood(Json& json, const Design& design, const Track& track, const std::o
 
 }  // namespace
 
-Json pipeline::track_document(const Design& given, const Track& track, StallMargin margin) {
+Json pipeline::track_document(const Design& given, const Track& track, Told told) {
   const Design design = as_solved(given, track);
   Json json = task_document(design, track.endpoints);
   json["centerline"] = word(design.centerline.kind);
@@ -262,14 +262,15 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
   json["straight_travel_time_s"] = number(track.straight_travel_time());
   json["optimum_travel_time_s"] = number(track.optimum_travel_time);
   add_curve(json, track);
-  json["rides"] = rides_of(track, margin);
+  json["rides"] = rides_of(track, told);
   json["clearances_from"] = clearances_from_json(design);
   json["limits"] = limits_json(track.limit_checks, track.search ? &*track.search : nullptr);
   json["search"] = track.search ? search_json(*track.search) : Json(nullptr);
   json["fastest_within_limits"] = fastest_within_json(track);
   json["probes"] = probes_json(probe_readings(design, track));
   json["gates"] = track.gates ? gates_json(*track.gates) : Json(nullptr);
-  json["rules"] = report::rules_json(judge_rules(design, track));
+  const bool everything = told == Told::everything;
+  json["rules"] = everything ? report::rules_json(judge_rules(design, track)) : Json::array();
   if (design.stream) {
     json["wear"] = wear_json(design, track);
     // What flies over the start, or stands there, wears nothing; a reader finds the same keys.
@@ -277,9 +278,9 @@ Json pipeline::track_document(const Design& given, const Track& track, StallMarg
       for (auto& [key, value] : json["wear"].items()) value = nullptr;
     }
     json["verdicts"] = json["rules"];
-    json["cases"] = cases_json(design, track.centerline);
+    json["cases"] = everything ? cases_json(design, track.centerline) : Json::array();
   }
-  json["warnings"] = issues_json(warnings(design, track));
+  json["warnings"] = everything ? issues_json(warnings(design, track)) : Json::array();
   return json;
 }
 

@@ -96,15 +96,15 @@ void add_stall_margins(const Json& rides, std::vector<Quantity>& quantities) {
   }
 }
 
-std::vector<Quantity> quantities(const Design& design, const Track& track, pipeline::StallMargin margin) {
-  const Json json = pipeline::track_document(design, track, margin);
+std::vector<Quantity> quantities(const Design& design, const Track& track, pipeline::Told told) {
+  const Json json = pipeline::track_document(design, track, told);
   std::vector<Quantity> quantities;
   for (const auto& [name, value] : json.items()) {
     if (name == "limits") {
       for (const Json& limit : value) add_limit(limit, quantities);
     } else if (name == "rides") {
       for (const Json& ride : value) add_ride(ride, quantities);
-      if (margin == pipeline::StallMargin::yes) add_stall_margins(value, quantities);
+      if (told == pipeline::Told::figures_and_stall_margin) add_stall_margins(value, quantities);
     } else {
       add(name, value, quantities);
     }
@@ -115,11 +115,11 @@ std::vector<Quantity> quantities(const Design& design, const Track& track, pipel
 }  // namespace
 
 std::vector<Quantity> quantities_of(const Design& design, const Track& track) {
-  return quantities(design, track, pipeline::StallMargin::no);
+  return quantities(design, track, pipeline::Told::figures);
 }
 
 std::vector<Quantity> quantities_with_stall_margins(const Design& design, const Track& track) {
-  return quantities(design, track, pipeline::StallMargin::yes);
+  return quantities(design, track, pipeline::Told::figures_and_stall_margin);
 }
 
 bool needs_stall_margins(const std::vector<std::string>& columns) {
