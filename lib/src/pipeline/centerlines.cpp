@@ -10,6 +10,7 @@
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/centerline/tabulated_curve.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/io/profile_csv.hpp"
 #include "glissade/pipeline/solve.hpp"
@@ -27,6 +28,11 @@
 namespace glissade {
 
 using namespace pipeline;
+
+Endpoints endpoints_of(const Design& design) {
+  const Vec3 way = design.track.finish - design.track.start;
+  return {math::hypot(way.x, way.y), -way.z};
+}
 
 namespace {
 
@@ -159,6 +165,14 @@ CenterlinePtr make_of_kind(const Design& design) {
 
 CenterlinePtr make_centerline(const Design& design) {
   return at_place(design.where("centerline"), [&] { return make_of_kind(design); });
+}
+
+Design with_finish(Design design) {
+  if (design.track.finish_given) return design;
+  const Endpoints end = make_centerline(design)->endpoints();
+  design.track.finish = design.track.start + Vec3{end.run, 0.0, -end.drop};
+  design.track.finish_given = true;
+  return design;
 }
 
 }  // namespace glissade

@@ -76,19 +76,6 @@ std::optional<double> Track::straight_travel_time() const {
   return straight->travel_time();
 }
 
-Endpoints endpoints_of(const Design& design) {
-  const Vec3 way = design.track.finish - design.track.start;
-  return {math::hypot(way.x, way.y), -way.z};
-}
-
-Design with_finish(Design design) {
-  if (design.track.finish_given) return design;
-  const Endpoints end = make_centerline(design)->endpoints();
-  design.track.finish = design.track.start + Vec3{end.run, 0.0, -end.drop};
-  design.track.finish_given = true;
-  return design;
-}
-
 namespace {
 
 /// @param found  if the track is the fastest of all, limits aside, what is known of it: it is not made twice
