@@ -10,6 +10,7 @@
 #include "support/catch.hpp"
 #include "support/neighbours.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -223,6 +224,24 @@ TEST_CASE(
   Problem smooth = given;
   smooth.body.friction_changes[1].friction = Friction::from_coefficient(0.25);
   CHECK(time_of(smooth) < report.travel_time);
+}
+
+// Places at which limits are held lay a last digit behind the last knot of a mesh that was laid anew: it read beyond its knots.
+TEST_CASE("friction list: the least load behind a straight start is looked for to the end") {
+  if (!testing::thorough()) return;  // some seconds until it was met
+  Problem problem;
+  problem.endpoints = {0.88, 0.78};
+  problem.body.friction = Friction::from_coefficient(0.18);
+  problem.body.friction_changes = {{0.18, Friction::from_coefficient(0.07)}};
+  const double slope = Angle::from_degrees(10.0).radians();
+  problem.limits.exit_slope_angle.lowest = problem.limits.exit_slope_angle.highest = slope;
+  problem.limits.lead_in = 0.14;
+  problem.limits.exit_speed.lowest = 3.2;
+  problem.objective.kind = ObjectiveKind::least_load;
+  OptimizeOptions options;
+  options.time_budget = 12.0;
+  const Optimum found = optimize(problem, options);
+  CHECK(found.report.status != OptimizeStatus::infeasible);
 }
 
 }  // namespace friction_list_test

@@ -213,6 +213,7 @@ class HeldPlaces {
     int exponent = 0;
     const double mantissa = std::frexp(sigma, &exponent);
     sigma = std::ldexp(std::round(std::ldexp(mantissa, kBits)), exponent - kBits);
+    if (sigma >= knots.back()) return;
     const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, sigma);
     const double piece = *above - *(above - 1);
     for (double& place : places_) {
@@ -811,7 +812,9 @@ MeshTrack Searcher::relaid(const ScaledProblem& problem, const Found& found) con
   const Mesh& before = track.mesh();
   const auto shares_of = [&](const Vector& places) {
     Vector shares;
-    for (const double sigma : places) shares.push_back(track.share_of_core(found.z, sigma));
+    // All of it is 1: shares that add up to a last digit less would leave places behind the last knot.
+    for (const double sigma : places)
+      shares.push_back(sigma == 1.0 ? 1.0 : std::min(track.share_of_core(found.z, sigma), 1.0));
     return shares;
   };
   MeshTrack again;
