@@ -101,7 +101,8 @@ std::string ride_text(const AsBuiltRide& ride) {
   if (ride.hops > 0) {
     text += "; off the floor " +
             (ride.hops == 1 ? std::string("once") : std::to_string(ride.hops) + " times") + ", by " +
-            length_text(ride.highest_hop, 2) + " at most, where its load is all but nothing";
+            length_text(ride.highest_hop, 2) +
+            " at most, where the floor falls away or its load is all but nothing";
   }
   return text;
 }

@@ -198,6 +198,92 @@ TEST_CASE("plates: a kink costs 1 - (cos phi - mu sin phi) of the speed, against
   CHECK(std::fabs(ride.time / time - 1.0) < 1e-12);
 }
 
+TEST_CASE("plates: where the floor falls away the body flies on and lands, against a flight by hand") {
+  // 25 deg down for 1 m, then 45 deg.
+  const double first = Angle::from_degrees(25.0).radians();
+  const double second = Angle::from_degrees(45.0).radians();
+  const double mu = kFriction.coefficient();
+  const double g = 9.81;
+  const auto floor_of = [&](double length) {
+    parts::Facets facets;
+    facets.corners = {{0.0, 0.0}, {math::cos(first), -math::sin(first)}};
+    facets.corners.push_back(facets.corners.back() +
+                             Vec2{length * math::cos(second), -length * math::sin(second)});
+    facets.kinks = {first - second};
+    return facets;
+  };
+  const double before = std::sqrt(2.0 * g * (math::sin(first) - mu * math::cos(first)));
+  // It leaves the second flat's line with what of its speed is square to that, and gravity brings it back.
+  const double kink = second - first;
+  const double time = 2.0 * before * math::sin(kink) / (g * math::cos(second));
+  const double way = before * math::cos(kink) * time + 0.5 * g * math::sin(second) * time * time;
+  const double along = before * math::cos(kink) + g * math::sin(second) * time;
+  const double after = along - mu * before * math::sin(kink);
+  const double rest = 3.0 - way;
+  const double exit =
+      std::sqrt(after * after + 2.0 * g * (math::sin(second) - mu * math::cos(second)) * rest);
+  const parts::FacetRide ride = parts::ride_facets({floor_of(3.0)}, {.friction = kFriction}, g, 0.0);
+  REQUIRE(ride.arrives);
+  CHECK(std::fabs(ride.speed / exit - 1.0) < 1e-12);
+  CHECK(std::fabs(ride.time / (2.0 / before + time + 2.0 * rest / (after + exit)) - 1.0) < 1e-12);
+  CHECK(ride.hops == 1);
+  // Midway it is (v sin)^2/(2 g cos) above the second flat; the looks at it are a sixteenth of the flight apart.
+  const double highest = std::pow(before * math::sin(kink), 2) / (2.0 * g * math::cos(second));
+  CHECK(std::fabs(ride.highest_hop / highest - 1.0) < 1e-9);
+  // Of a floor that ends before it comes down it is past the end in flight.
+  const double ends = 0.5 * way;
+  const parts::FacetRide past = parts::ride_facets({floor_of(ends)}, {.friction = kFriction}, g, 0.0);
+  REQUIRE(past.arrives);
+  const double there = std::sqrt(std::pow(before * math::cos(kink), 2) + 2.0 * g * math::sin(second) * ends);
+  CHECK(std::fabs(past.speed / there - 1.0) < 1e-12);
+  // Held, it follows the floor.
+  const parts::FacetRide held =
+      parts::ride_facets({floor_of(3.0)}, {.friction = kFriction, .held = true}, g, 0.0);
+  CHECK(held.hops == 0);
+  CHECK(held.speed < ride.speed);
+}
+
+TEST_CASE("plates: over a crest of ever more bends the body comes to the speed of the smooth one") {
+  // 60 deg, a valley to 15 deg, a crest to 35 deg on which the load stays above nothing.
+  const auto step = [](Vec2 from, double angle, double length) {
+    return from + length * Vec2{math::cos(angle), math::sin(angle)};
+  };
+  const auto rad = [](double degrees) { return Angle::from_degrees(degrees).radians(); };
+  std::vector<PathVertex> line{{{0.0, 0.0}, 0.0}};
+  const auto straight = [&](double slope, double length) {
+    line.push_back({step(line.back().at, rad(-slope), length), 0.0});
+  };
+  const auto arc = [&](double from, double to, double radius) {
+    const double turn = rad(from - to);
+    line.back().bulge = math::tan(0.25 * turn);
+    const double chord = 2.0 * radius * math::sin(0.5 * std::fabs(turn));
+    line.push_back({step(line.back().at, rad(-0.5 * (from + to)), chord), 0.0});
+  };
+  straight(60.0, 0.8);
+  arc(60.0, 15.0, 3.0);
+  straight(15.0, 1.0);
+  arc(15.0, 35.0, 7.0);
+  straight(35.0, 0.7);
+  const auto track = std::make_shared<const ArcSpline>(ArcPath{line, false});
+  const Body body{.friction = kFriction};
+  const parts::FacetRide smooth = parts::ride_lines({track}, body, 9.81, 0.0);
+  REQUIRE(smooth.arrives);
+  REQUIRE(smooth.hops == 0);
+  double before = 1.0;
+  for (const double degrees : {4.0, 2.0, 1.0, 0.5, 0.25}) {
+    const parts::FacetRide ride = parts::ride_facets(
+        {parts::facets_by_angle(*track, {0.0, track->length()}, rad(degrees), 0.0)}, body, 9.81, 0.0);
+    CAPTURE(degrees, ride.speed, smooth.speed);
+    REQUIRE(ride.arrives);
+    CHECK(ride.hops > 0);
+    const double lost = 1.0 - ride.speed / smooth.speed;
+    CHECK(lost > 0.0);
+    CHECK(lost < 0.6 * before);
+    before = lost;
+  }
+  CHECK(before < 2e-3);
+}
+
 TEST_CASE(
     "plates: over a crest that is a hair too tight the body hops and goes on; over an edge it is told where "
     "it flies") {

@@ -8,8 +8,11 @@
 #include "parts/curves/nearest_place.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -250,6 +253,58 @@ ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness)
 
 namespace {
 
+/// A flat of a bent floor.
+struct Flat {
+  Vec2 from;
+  Vec2 to;
+  double kink = 0.0;   ///< at its end, positive where the floor curls up; 0 at the end of a unit [rad]
+  bool joint = false;  ///< whether its unit ends with it
+
+  [[nodiscard]] double length() const { return norm(to - from); }
+  [[nodiscard]] Vec2 along() const { return (1.0 / length()) * (to - from); }
+  [[nodiscard]] Vec2 up() const { return {-along().y, along().x}; }
+  [[nodiscard]] double distance(Vec2 point) const {
+    const double s = std::clamp(dot(point - from, along()), 0.0, length());
+    return norm(point - (from + s * along()));
+  }
+};
+
+/// A place on a flat, of so many.
+struct FlatPlace {
+  std::size_t flat = 0;
+  double distance = 0.0;  ///< from where it begins [m]
+};
+
+/// A body in the air.
+struct Flight {
+  Vec2 from;
+  Vec2 way;  ///< its velocity there [m/s]
+  double gravity = 0.0;
+
+  [[nodiscard]] Vec2 at(double t) const { return from + t * way - Vec2{0.0, 0.5 * gravity * t * t}; }
+  [[nodiscard]] Vec2 velocity(double t) const { return way - Vec2{0.0, gravity * t}; }
+  /// @return when it comes down on the line of a flat, from above [s]; none on one that it never meets so
+  [[nodiscard]] std::optional<double> meets(const Flat& flat) const {
+    const Vec2 up = flat.up();
+    const double falls = gravity * up.y;
+    const double rises = dot(up, way);
+    const double square = rises * rises + 2.0 * falls * dot(up, from - flat.from);
+    if (!(falls > 0.0) || !(square >= 0.0)) return std::nullopt;
+    const double t = (rises + std::sqrt(square)) / falls;
+    return t > 0.0 ? std::optional(t) : std::nullopt;
+  }
+  /// @return when it passes the end of a flat, square to that [s]; none if it does not
+  [[nodiscard]] std::optional<double> passes(const Flat& flat) const {
+    const Vec2 along = flat.along();
+    const double left = dot(flat.to - from, along);
+    const double speed = dot(way, along);
+    const double square = speed * speed - 2.0 * gravity * along.y * left;
+    const double sum = speed + std::sqrt(std::max(0.0, square));
+    if (!(left > 0.0) || !(square >= 0.0) || !(sum > 0.0)) return std::nullopt;
+    return 2.0 * left / sum;
+  }
+};
+
 /// A body from piece to piece of a floor.
 class Rider {
  public:
@@ -257,8 +312,8 @@ class Rider {
 
   /// @return false if it does not come to the end of the piece
   bool down(CenterlinePtr piece) {
-    constexpr std::size_t kMostHops = 1000;
-    while (ride_.hops <= kMostHops) {
+    constexpr std::size_t kMostHops = 1000;  // budget: of one piece
+    for (std::size_t hops = 0; hops <= kMostHops; ++hops) {
       Body body = body_;
       body.entry_speed = speed_;
       // What came down on the first piece runs along the others.
@@ -289,9 +344,40 @@ class Rider {
     ride_.stopped = "it leaves the floor again and again";
     return false;
   }
+  /// Whether it goes on through the air where the floor falls away: what is held does not, nor what its speed alone holds on.
+  [[nodiscard]] bool flies() const { return !body_.held && gravity_ > 0.0 && speed_ > 0.0; }
   void over_kink(double kink) {
     const auto [sine, cosine] = math::sine_cosine(std::fabs(kink));
     speed_ *= kink > 0.0 ? std::max(0.0, cosine - friction() * sine) : cosine;
+  }
+  /// Flies from the end of a flat until it comes down on one behind it, and loses there what it carries into the floor.
+  /// @return where; beyond the last one it has flown past the end of the floor, the speed there known. None where no flat meets it
+  [[nodiscard]] std::optional<FlatPlace> fly_from(const std::vector<Flat>& flats, std::size_t leaves) {
+    const Flight flight{flats[leaves].to, speed_ * flats[leaves].along(), gravity_};
+    double before = 0.0;  // length of the flats that it passes
+    for (std::size_t k = leaves + 1; k < flats.size(); ++k) {
+      const Flat& flat = flats[k];
+      const double length = flat.length();
+      const std::optional<double> lands = flight.meets(flat);
+      if (lands && dot(flight.at(*lands) - flat.from, flat.along()) <= length) {
+        const double s = std::max(0.0, dot(flight.at(*lands) - flat.from, flat.along()));
+        const Vec2 arriving = flight.velocity(*lands);
+        speed_ =
+            std::max(0.0, dot(arriving, flat.along()) + friction() * std::min(0.0, dot(arriving, flat.up())));
+        hopped(flight, flats, {leaves + 1, k + 1}, *lands, before + s);
+        return FlatPlace{k, s};
+      }
+      before += length;
+    }
+    const std::optional<double> ends = flight.passes(flats.back());
+    if (!ends) {
+      ride_.stopped = "it leaves the floor " + length_text(passed_, 4) + " along it at " +
+                      rounded_text(speed_, 4) + " m/s and does not come down on it";
+      return std::nullopt;
+    }
+    speed_ = dot(flight.velocity(*ends), flats.back().along());
+    hopped(flight, flats, {leaves + 1, flats.size()}, *ends, before);
+    return FlatPlace{flats.size(), 0.0};
   }
   void down_step(double step) {
     speed_ = std::max(0.0, speed_ - friction() * std::sqrt(2.0 * gravity_ * step));
@@ -306,6 +392,21 @@ class Rider {
 
  private:
   [[nodiscard]] double friction() const { return body_.friction.coefficient(); }
+
+  /// @param below  first and one past the last of the flats that it flies over
+  void hopped(const Flight& flight, const std::vector<Flat>& flats, std::array<std::size_t, 2> below,
+              double time, double way) {
+    constexpr int kLooks = 16;  // taste: a parabola over a few flats
+    for (int i = 1; i < kLooks; ++i) {
+      const Vec2 there = flight.at(time * i / kLooks);
+      double clear = std::numeric_limits<double>::infinity();
+      for (std::size_t k = below[0]; k < below[1]; ++k) clear = std::min(clear, flats[k].distance(there));
+      ride_.highest_hop = std::max(ride_.highest_hop, clear);
+    }
+    ++ride_.hops;
+    ride_.time += time;
+    passed_ += way;
+  }
 
   /// What changes along the track, as it is on the rest of it.
   static void go_on_from(double s, Body& body) {
@@ -375,18 +476,38 @@ class Rider {
   FacetRide ride_;
 };
 
+std::vector<Flat> flats_of(const std::vector<Facets>& units) {
+  std::vector<Flat> flats;
+  for (const Facets& facets : units) {
+    for (std::size_t i = 0; i + 1 < facets.corners.size(); ++i) {
+      const bool bends = i < facets.bends();
+      flats.push_back({facets.corners[i], facets.corners[i + 1], bends ? facets.kinks[i] : 0.0, !bends});
+    }
+  }
+  return flats;
+}
+
 }  // namespace
 
 FacetRide ride_facets(const std::vector<Facets>& units, const Body& body, double gravity, double joint_step) {
+  const std::vector<Flat> flats = flats_of(units);
   Rider rider(body, gravity);
-  for (std::size_t u = 0; u < units.size(); ++u) {
-    const Facets& facets = units[u];
-    if (u > 0) rider.down_step(joint_step);
-    for (std::size_t i = 0; i + 1 < facets.corners.size(); ++i) {
-      const Vec2 along = facets.corners[i + 1] - facets.corners[i];
-      if (!rider.down(std::make_shared<StraightLine>(Endpoints{along.x, -along.y}))) return rider.stopped();
-      if (i < facets.bends()) rider.over_kink(facets.kinks[i]);
+  FlatPlace place;
+  while (place.flat < flats.size()) {
+    const Flat& flat = flats[place.flat];
+    const Vec2 left = flat.to - (flat.from + place.distance * flat.along());
+    const bool somewhat = flat.length() - place.distance > kSame;
+    if (somewhat && !rider.down(std::make_shared<StraightLine>(Endpoints{left.x, -left.y})))
+      return rider.stopped();
+    if (flat.kink < 0.0 && rider.flies()) {
+      const std::optional<FlatPlace> next = rider.fly_from(flats, place.flat);
+      if (!next) return rider.stopped();
+      place = *next;
+      continue;
     }
+    if (flat.kink != 0.0) rider.over_kink(flat.kink);
+    if (flat.joint && place.flat + 1 < flats.size()) rider.down_step(joint_step);
+    place = {place.flat + 1, 0.0};
   }
   return rider.arrived();
 }

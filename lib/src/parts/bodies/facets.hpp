@@ -41,8 +41,9 @@ struct Facets {
 [[nodiscard]] ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness);
 
 /// A body down the flats one by one; at each corner that curls up the speed falls to cos phi - mu sin phi of it, without
-/// a rebound, at one that falls away to cos phi. Where the load on an arc comes to nothing it flies on and comes down as at a
-/// corner.
+/// a rebound. At one that falls away it flies on until it comes down on a flat behind it, and keeps there what is along that
+/// less mu of what is not; over the end of the floor it arrives in flight. A body that is held keeps cos phi. Where the load on an
+/// arc comes to nothing it flies, too.
 struct FacetRide {
   bool arrives = false;
   double time = 0.0;
