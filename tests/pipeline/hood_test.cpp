@@ -4,12 +4,14 @@
 #include "glissade/trades/chute/hood.hpp"
 
 #include "glissade/design/write.hpp"
+#include "glissade/motion/stall_friction.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/frozen.hpp"
 #include "glissade/pipeline/json.hpp"
 #include "glissade/pipeline/rules.hpp"
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
 #include <cmath>
@@ -211,6 +213,28 @@ TEST_CASE("a hood is as wide as its track at the start, whatever that is further
         .solid.exact_volume;
   };
   CHECK(volume("width: [{at: 0 m, width: 800 mm}, {at: 1.5 m, width: 600 mm}]") == volume("width: 800 mm"));
+}
+
+TEST_CASE("a track below a hood has one stall friction, whatever the friction of its own") {
+  const Design design = read_design(designs_path("ore_transfer.yaml"));
+  const Track track = solve(design);
+  const Body own = track.motion.body();
+  REQUIRE(own.approach);
+  const auto stalls = stall_friction_angle(track.centerline, own, design.gravity);
+  REQUIRE(stalls);
+  // Far above, the stream falls away from the hood, and what follows is no ride of this track.
+  Body rubbed = own;
+  rubbed.friction = Friction::from_angle(Angle::from_degrees(53.6));
+  CHECK(own.approach->falls_away(rubbed));
+  CHECK_FALSE(own.approach->falls_away(own));
+  for (const double degrees : {10.0, 17.0, 17.02, 24.0, 31.0, 45.0, 50.0, 51.0, 53.0}) {
+    CAPTURE(degrees);
+    Body body = own;
+    body.friction = Friction::from_angle(Angle::from_degrees(degrees));
+    const auto found = stall_friction_angle(track.centerline, body, design.gravity);
+    REQUIRE(found);
+    CHECK(found->radians() == Approx(stalls->radians()).margin(kStallFrictionAccuracy));
+  }
 }
 
 TEST_CASE("a hood keeps clear of what the track keeps clear of") {

@@ -21,35 +21,60 @@ Body with_friction(Body body, Angle angle) {
   return body;
 }
 
-}  // namespace
+enum class Outcome {
+  rides,   ///< it does not get stuck
+  sticks,  ///< it stalls or chokes
+  misses   ///< it does not get onto the track
+};
 
-bool stalls_at(const CenterlinePtr& centerline, const Body& body, Angle angle, double gravity) {
+Outcome outcome_of(const CenterlinePtr& centerline, const Body& body, Angle angle, double gravity) {
+  const Body rubbed = with_friction(body, angle);
   try {
-    const Motion motion(centerline, with_friction(body, angle), gravity);
+    const Motion motion(centerline, rubbed, gravity);
+    if (!lands(motion) || (rubbed.approach && rubbed.approach->falls_away(rubbed))) return Outcome::misses;
     // A stream that slows down chokes before it stands.
     const bool chokes = motion.law_end() && motion.law_end()->what != "valley_radius_m";
-    return motion.stall().has_value() || chokes;
+    return motion.stall() || chokes ? Outcome::sticks : Outcome::rides;
   } catch (const ConvergenceError&) {
-    return false;  // free flight along a track at an absurd friction: it feels none
+    return Outcome::rides;  // free flight along a track at an absurd friction: it feels none
   }
 }
 
+}  // namespace
+
+bool stalls_at(const CenterlinePtr& centerline, const Body& body, Angle angle, double gravity) {
+  return outcome_of(centerline, body, angle, gravity) == Outcome::sticks;
+}
+
 std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body, double gravity) {
-  const auto stalls = [&](Angle angle) { return stalls_at(centerline, body, angle, gravity); };
-  if (stalls(Angle{})) return Angle{};
+  const auto outcome = [&](double radians) {
+    return outcome_of(centerline, body, Angle::from_radians(radians), gravity);
+  };
+  if (outcome(0.0) == Outcome::sticks) return Angle{};
   // From the body's own friction, the one that people ask about, towards the steepest: at absurd frictions a ride
   // that touches the track without load (N = 0) cannot be told from one that leaves it.
   double clear = 0.0;
   double stuck = body.friction.angle().radians();
-  while (!stalls(Angle::from_radians(stuck))) {
+  const Outcome own = outcome(stuck);
+  Outcome beyond = own;  // at `stuck`
+  // What comes from a hood misses the track beyond some friction: it has got stuck before, or never does. Where it already
+  // misses, or gets stuck, what is below may miss as well, too fast for the start.
+  const auto is_clear = [&](Outcome found) {
+    return found == Outcome::rides || (own != Outcome::rides && found == Outcome::misses);
+  };
+  while (is_clear(beyond)) {
     if (stuck >= kSteepest.radians()) return {};
     clear = stuck;
     stuck = std::min(0.5 * (stuck + kRightAngle), kSteepest.radians());
+    beyond = outcome(stuck);
   }
   while (stuck - clear > kStallFrictionAccuracy) {
     const double tried = 0.5 * (clear + stuck);
-    (stalls(Angle::from_radians(tried)) ? stuck : clear) = tried;
+    const Outcome found = outcome(tried);
+    (is_clear(found) ? clear : stuck) = tried;
+    if (!is_clear(found)) beyond = found;
   }
+  if (beyond == Outcome::misses) return {};
   return Angle::from_radians(clear);
 }
 

@@ -39,6 +39,8 @@ class Approach {
   /// @param body  on its way down, with the friction and the law that it has on the track
   /// @return how it comes down on the start
   [[nodiscard]] virtual Landing landing(const Body& body) const = 0;
+  /// @return true if it falls away on its way, so that it comes down elsewhere: a stream that loses its hood
+  [[nodiscard]] virtual bool falls_away(const Body& body) const = 0;
 
  protected:
   Approach() = default;

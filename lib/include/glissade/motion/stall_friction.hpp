@@ -16,9 +16,12 @@ inline constexpr double kStallFrictionAccuracy = 1e-6;
 /// More friction is a slower body at every place as long as the track carries it (docs/theory.md, energy
 /// equation), so that there is one such angle: below it the body does not stall, above it it does. A body that
 /// leaves the track has not stalled.
+/// What comes down from a hood (Body::approach) falls away from it beyond some friction, and misses the track: the first
+/// friction counts at which a ride from the body's own on no longer goes through, and there is none if what ends it is that.
 /// Where friction changes along the track, every change is shifted by the same angle as the body's own.
 /// Accuracy: kStallFrictionAccuracy; never above the true angle by more than that.
-/// @return 0 if the body stalls without any friction; none if it does not stall below 89.9 deg
+/// @return 0 if the body stalls without any friction; none if it does not stall below 89.9 deg, or misses the track before it
+///         would
 /// @throws as Motion
 [[nodiscard]] std::optional<Angle> stall_friction_angle(const CenterlinePtr& centerline, const Body& body,
                                                         double gravity = kDefaultGravity);

@@ -124,4 +124,8 @@ Landing HoodApproach::landing(const Body& body) const {
   return passage_of(hood_, feed_, body, gravity_).landing;
 }
 
+bool HoodApproach::falls_away(const Body& body) const {
+  return passage_of(hood_, feed_, body, gravity_).motion.lift_off().has_value();
+}
+
 }  // namespace glissade

@@ -59,6 +59,7 @@ class HoodApproach final : public Approach {
   HoodApproach(const HoodShape& hood, const Landing& feed, double gravity)
       : hood_(hood), feed_(feed), gravity_(gravity) {}
   [[nodiscard]] Landing landing(const Body& body) const override;
+  [[nodiscard]] bool falls_away(const Body& body) const override;
 
  private:
   HoodShape hood_;
