@@ -25,7 +25,8 @@ std::string time_of(const Motion& motion) {
 
 std::string margin_text(const Motion& motion, const std::optional<Angle>& stall_angle) {
   if (!lands(motion)) return "-";
-  if (!stall_angle) return "never stalls";
+  // Of what does not get down the track as it is nothing follows for other frictions.
+  if (!stall_angle) return motion.arrived() ? "never stalls" : "-";
   return angle_text(*stall_angle - motion.body().friction.angle(), 3);
 }
 
@@ -64,7 +65,8 @@ void add_ride(Table& table, const std::string& name, const Motion& motion,
 std::string friction_lines(const Track& track) {
   const std::optional<Angle> stall_angle = stall_angle_of(track);
   // Nothing is known of the impact of what flies over the start.
-  std::string text = lands(track.motion) ? labelled("Stalls from", stall_text(track, stall_angle)) : "";
+  const bool told = lands(track.motion) && (stall_angle || track.motion.arrived());
+  std::string text = told ? labelled("Stalls from", stall_text(track, stall_angle)) : "";
   if (track.range.empty()) return text;
   Table table = rides_table("Friction");
   for (const LevelRide& ride : track.rides()) {

@@ -296,6 +296,58 @@ TEST_CASE("the summary tells how a stream ends at each friction") {
                                !Contains("never stalls") && !Contains("Normal load"));
 }
 
+TEST_CASE("what cannot be on the start of a track is told alike by every command, with place and way out") {
+  const TempDir place;
+  const std::string file = (place / "tight.yaml").string();
+  put_bytes(place / "tight.yaml",
+            "glissade: 1\n"
+            "track: {start: {x: 0 m, z: 6 m}, finish: {x: 7 m, z: 1 m}}\n"
+            "body: {friction_angle: 8 deg, centre_height: 0.4 m, entry_speed: 1 m/s}\n"
+            "centerline: {kind: cycloid}\n");
+  for (const std::string speed : {"0m/s", "1m/s"}) {
+    const std::string set = "body.entry_speed=" + speed;
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"solve", file},
+                                                    {"ride", file, "--friction-angle", "9deg"},
+                                                    {"solve", file, "--json"},
+                                                    {"plot", file, "-o", (place / "p.svg").string()},
+                                                    {"solve", file, "--csv", (place / "t.csv").string()}}) {
+      std::vector<std::string> all = command;
+      all.insert(all.end(), {"--set", set});
+      const Outcome outcome = glissade_run(all);
+      INFO(outcome.output << outcome.errors);
+      CHECK(outcome.exit_code == 3);
+      CHECK_THAT(outcome.errors, Contains("tight.yaml:4:") &&
+                                     Contains("cycloid: the body does not fit on the start") &&
+                                     Contains("400 mm above the track") && Contains("kind: fastest"));
+    }
+    const Outcome compared = glissade_run({"compare", file, "--set", set});
+    CHECK_THAT(compared.output, Contains("the body does not fit on the start") && !Contains("nan"));
+  }
+  put_bytes(place / "stream.yaml",
+            "glissade: 1\n"
+            "track: {start: {x: 0 m, z: 6 m}, finish: {x: 7 m, z: 1 m}}\n"
+            "body: {friction_angle: 17 deg, entry_speed: 2 m/s}\n"
+            "stream: {mass_flow: 60 t/h, bulk_density: 780 kg/m^3}\n"
+            "centerline: {kind: cycloid}\n"
+            "cross_section: {kind: u-channel, width: 400 mm, wall_height: 200 mm, thickness: 4 mm}\n");
+  const Outcome stream = glissade_run({"solve", (place / "stream.yaml").string()});
+  CHECK(stream.exit_code == 3);
+  CHECK_THAT(stream.errors, Contains("stream.yaml:5:") && Contains("cannot enter a track whose radius is 0"));
+  // Of what rides nowhere nothing is said to never stall.
+  put_bytes(place / "valley.yaml",
+            "glissade: 1\n"
+            "track: {start: {x: 0 m, z: 6 m}}\n"
+            "body: {friction_angle: 8 deg, centre_height: 0.4 m, entry_speed: 1 m/s}\n"
+            "centerline: {kind: segments, entry_slope_angle: 60 deg, segments: [{length: 0.2 m, radius: 0.3 "
+            "m}]}\n");
+  const std::string valley = (place / "valley.yaml").string();
+  const Outcome solved_there = glissade_run({"solve", valley});
+  CHECK(solved_there.exit_code == 3);
+  CHECK_THAT(solved_there.output,
+             Contains("does not fit into the valley") && Contains("unbounded") && !Contains("Stalls from"));
+  CHECK_THAT(glissade_run({"ride", valley, "--friction-angle", "9deg"}).output, !Contains("never stalls"));
+}
+
 TEST_CASE("--set replaces a value of the design file") {
   const Outcome outcome =
       glissade_run({"solve", shipped("grain_chute"), "--set", "body.friction_angle=19deg", "--json"});

@@ -1,6 +1,7 @@
 // Laws of motion beside the sliding point: each against closed forms, against Newton's second law by an
 // integrator that shares no code with Motion, and against the identities that its header states.
 
+#include "glissade/centerline/cycloid.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
 #include "glissade/motion/laws/rider.hpp"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -563,6 +565,19 @@ TEST_CASE("laws: a body that no law can move is refused with its number") {
   back.friction_changes = {{2.0, {}}, {1.0, {}}};
   CHECK_THROWS_WITH(Motion(ramp, back), Catch::Matchers::Contains("1 m after 2 m"));
   CHECK_THROWS_AS(Motion(ramp, body(0.1, 0.0, nullptr)).quantity(0, 0.5), InputError);
+}
+
+TEST_CASE("a centre of mass above a start that bends too tightly: the load has no bound, and is a number") {
+  const auto cycloid = std::make_shared<const Cycloid>(Endpoints{7.0, 5.0});
+  const auto arc = track(0.5, {{2.0, 4.0, 4.0}});  // of 0.25 m
+  for (const CenterlinePtr& tight : std::vector<CenterlinePtr>{cycloid, arc}) {
+    const Motion ride(tight, body(0.1, 1.0, std::make_shared<const Rider>(0.4)));
+    REQUIRE(ride.law_end());
+    CHECK(ride.law_end()->what == "valley_radius_m");
+    CHECK(ride.distance() == 0.0);
+    CHECK(ride.highest_load().normal_load == std::numeric_limits<double>::infinity());
+    CHECK(ride.lowest_load().normal_load == std::numeric_limits<double>::infinity());
+  }
 }
 
 }  // namespace laws_test

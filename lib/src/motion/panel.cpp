@@ -105,7 +105,10 @@ double Equation::load(const Direction& direction, double v) const {
   const double weight = side * gravity * math::cos(direction.slope_angle);
   if (v == 0.0) return weight;
   if (height == 0.0) return weight + side * direction.curvature * v;
-  return weight + direction.curvature * v / path_rate(direction);
+  const double rate = path_rate(direction);
+  // A valley tighter than the centre of mass is high: the load grows without bound before the body is in it.
+  if (!(rate > 0.0)) return std::numeric_limits<double>::infinity();
+  return weight + direction.curvature * v / rate;
 }
 
 Stretch Stretch::even(double begin, double end) {

@@ -161,10 +161,39 @@ CenterlinePtr make_of_kind(const Design& design) {
   throw InternalError({"", "a centerline of this kind cannot be made", "", ""});
 }
 
+/// Looks that the body can be on the start of a track whose radius is 0 there.
+/// @throws InfeasibleError if it cannot
+void require_start(const Design& design, const Centerline& centerline) {
+  if (!centerline.unbounded_curvature_at_start()) return;
+  const LawPtr law = body_of(design).law;
+  if (!law) return;
+  const std::string kind(word(design.centerline.kind));
+  const std::string place = design.where("centerline.kind");
+  const std::string hint = "kind: fastest, or straight";
+  if (law->depends_on_speed()) {
+    throw InfeasibleError(
+        {place,
+         kind + ": the " + std::string(law->kind()) + " cannot enter a track whose radius is 0 at its start",
+         "The load of what moves has no bound there, and what resists in proportion to it is stopped.",
+         hint});
+  }
+  if (law->centre_height() > 0.0) {
+    throw InfeasibleError(
+        {place, kind + ": the body does not fit on the start of the track, where its radius is 0",
+         "Its centre of mass runs " + length_text(law->centre_height()) +
+             " above the track: it fits on what bends upwards with a larger radius than that.",
+         hint + "; or a body that slides, without centre_height"});
+  }
+}
+
 }  // namespace
 
 CenterlinePtr make_centerline(const Design& design) {
-  return at_place(design.where("centerline"), [&] { return make_of_kind(design); });
+  return at_place(design.where("centerline"), [&] {
+    CenterlinePtr centerline = make_of_kind(design);
+    require_start(design, *centerline);
+    return centerline;
+  });
 }
 
 Design with_finish(Design design) {

@@ -149,11 +149,14 @@ std::optional<Issue> kink(const Design& design, const Track& track) {
   constexpr double kLoad = 50.0;  // times gravity: machines and riders end far below
   const MotionState hardest = track.motion.highest_load();
   if (!(hardest.normal_load > kLoad * design.gravity)) return {};
-  const std::string times = rounded_text(hardest.normal_load / design.gravity, 3) + " times gravity";
+  const std::string load =
+      std::isinf(hardest.normal_load)
+          ? "has no bound"
+          : "reaches " + rounded_text(hardest.normal_load / design.gravity, 3) + " times gravity";
   const bool searched = track.search.has_value();
   return Issue{
       design.where("centerline"),
-      "the track has a kink after " + length_text(hardest.arc_length) + ": the normal load reaches " + times,
+      "the track has a kink after " + length_text(hardest.arc_length) + ": the normal load " + load,
       "The track bends there with a radius of " + length_text(track.min_radius) +
           ": a body is not led round, it hits it.",
       searched ? "a smallest_radius or a highest_normal_load among the limits" : "a larger radius there"};
