@@ -5,6 +5,7 @@
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/design_source.hpp"
+#include "glissade/study/study.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -226,6 +227,20 @@ bool is_of_sweep(const std::string& directory, const std::string& path) {
                                      ignored);
 }
 
+/// Whether what stands at `path` has the name of a file that a sweep was made of.
+bool was_swept(const std::string& directory, const std::string& path) {
+  std::error_code ignored;
+  if (directory.empty() || !std::filesystem::is_regular_file(path, ignored)) return false;
+  try {
+    // The manifest knows no directories: a sweep is the same wherever it runs.
+    const std::vector<std::string> files = study::Results::open(directory).files();
+    return std::find(files.begin(), files.end(), std::filesystem::path(path).filename().string()) !=
+           files.end();
+  } catch (const Error&) {
+    return false;  // the command says what is wrong with it
+  }
+}
+
 /// Whether what stands at `path` is a file that the command reads: an argument, or what a design names.
 bool is_read(const CLI::App& command, const std::string& path) {
   std::error_code ignored;
@@ -313,6 +328,11 @@ void keep_what_is_read(const CLI::App& program) {
       if (is_read(given(program), path)) {
         throw InputError({name_of(**one), with_visible_characters(path) + " is read by this command, too",
                           "What it holds would be lost.", "another name"});
+      }
+      if (was_swept(merged_directory(given(program)), path)) {
+        throw InputError({name_of(**one),
+                          with_visible_characters(path) + " has the name of a file that was swept",
+                          "What it holds would be lost.", "another name, such as sweep.csv"});
       }
       const auto same = [&](const CLI::Option* other) {
         if (!writes_file(*other)) return false;

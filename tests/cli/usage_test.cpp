@@ -371,6 +371,11 @@ TEST_CASE("what a sweep has left is not written over by its own table") {
     CHECK_THAT(outcome.errors, Contains("--output: " + file + " is read by this command, too"));
     CHECK(bytes_of(file) == before);
   }
+  const std::string before = bytes_of(design);
+  const Outcome over_design = glissade_run({"sweep", "--merge", sweep, "-o", design});
+  CHECK(over_design.exit_code == 2);
+  CHECK_THAT(over_design.errors, Contains("--output: " + design + " has the name of a file that was swept"));
+  CHECK(bytes_of(design) == before);
   CHECK(glissade_run({"sweep", "--merge", sweep, "-o", sweep + "/table.csv"}).exit_code == 0);
 }
 

@@ -182,6 +182,8 @@ Results Results::open(const fs::path& directory) {
     }
     results.quantities_ = json.at("quantities").get<std::vector<std::string>>();
     results.design_ = json.at("design");
+    results.files_ = {results.design_};
+    for (const Json& profile : json.at("profiles")) results.files_.push_back(profile.at("file"));
     results.base_ = json.at("set").get<std::vector<std::string>>();
     results.frozen_ = json.at("frozen");
     return results;

@@ -149,6 +149,8 @@ class Results {
   }  ///< whether an input is a number
   [[nodiscard]] const std::vector<std::string>& quantities() const noexcept { return quantities_; }
   [[nodiscard]] const std::string& design() const noexcept { return design_; }  ///< name of its file
+  /// @return names of the files that were studied, as far as the manifest tells: the design's and those that it takes from
+  [[nodiscard]] const std::vector<std::string>& files() const noexcept { return files_; }
   [[nodiscard]] const std::vector<std::string>& base() const noexcept {
     return base_;
   }  ///< KEY=VALUE of every point
@@ -173,6 +175,7 @@ class Results {
   std::vector<bool> numeric_;
   std::vector<std::string> quantities_;
   std::string design_;
+  std::vector<std::string> files_;
   std::vector<std::string> base_;
   std::vector<bool> independent_;
   bool frozen_ = false;
