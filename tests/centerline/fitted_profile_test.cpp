@@ -574,8 +574,8 @@ TEST_CASE("a profile that runs back is refused by the number of the point") {
 
 TEST_CASE("what no track can follow is refused by the number of the point") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THAT(refusal({}), Contains("there are none") && Contains("at least 3"));
-  CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}}), Contains("there are 2 of them") && Contains("straight"));
+  CHECK_THAT(refusal({}), Contains("points: there are no points") && Contains("at least 3"));
+  CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}}), Contains("there are 2 points") && Contains("straight"));
   CHECK_THAT(refusal({{0.0, 0.0}, {1.0, kNan}, {2.0, 1.0}}),
              Contains("point 2 (1, nan)") && Contains("finite"));
   CHECK_THAT(refusal({{0.0, 0.0}, {1.0, 1.0}, {1.0, 1.0}, {2.0, 1.0}}),

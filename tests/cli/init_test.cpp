@@ -172,7 +172,7 @@ TEST_CASE("a profile that is no profile is refused with file, line and column") 
     return outcome.errors;
   };
   CHECK_THAT(refusal("x,z\n0,2\n1,nan\n2,0\n", 5), Contains("profile.csv:3:3: ") && Contains("nan"));
-  CHECK_THAT(refusal("x,z\n0,2\n", 2), Contains("profile.csv: there is 1 of them") && Contains("at least 3"));
+  CHECK_THAT(refusal("x,z\n0,2\n", 2), Contains("profile.csv: there is 1 point") && Contains("at least 3"));
   CHECK_THAT(refusal("x,z\n0,2\n1,1\n\n1,1\n2,0\n", 2), Contains("profile.csv:5: ") && Contains("repeats"));
   CHECK_THAT(refusal("x,z\n0,2\n2,1\n1,1.5\n3,0\n", 2),
              Contains("profile.csv:3: ") && Contains("turns back"));

@@ -31,6 +31,18 @@ Track moved(const std::string& track, const std::string& limits, double east) {
 
 }  // namespace
 
+TEST_CASE("a search straight down is refused at the finish, with what to try") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 6 m}, finish: {x: 0 m, z: 1 m}}\nbody: {friction_angle: 8 "
+      "deg}\n"
+      "limits: {smallest_radius: 1 m}\n",
+      "down.yaml");
+  CHECK_THROWS_WITH(solve(design),
+                    Catch::Matchers::Contains("down.yaml:2:") &&
+                        Catch::Matchers::Contains("track.finish.x: 0 m is that of the start") &&
+                        Catch::Matchers::Contains("a finish further out"));
+}
+
 TEST_CASE("a track with a free end is the same wherever it stands") {
   struct Case {
     std::string track;

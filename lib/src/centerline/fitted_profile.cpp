@@ -110,10 +110,9 @@ std::optional<ProfileFault> profile_fault(const std::vector<Vec2>& points) {
     return ProfileFault{index, {point_text(points, index), std::move(what), std::move(why), std::move(hint)}};
   };
   if (points.size() < 3) {
-    const std::string count = points.empty() ? "there are none"
-                              : points.size() == 1
-                                  ? "there is 1 of them"
-                                  : "there are " + std::to_string(points.size()) + " of them";
+    const std::string count = points.empty()       ? "there are no points"
+                              : points.size() == 1 ? "there is 1 point"
+                                                   : "there are " + std::to_string(points.size()) + " points";
     return ProfileFault{
         {},
         {"points", count, "A curve needs at least 3 points.", "more points; between two, the kind straight"}};

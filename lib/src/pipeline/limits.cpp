@@ -373,7 +373,23 @@ void throw_none_with(const LongLeads& leads, const Design& design, OptimizeRepor
 
 }  // namespace
 
+namespace {
+
+/// @throws InputError if the finish lies straight below the start: all that is searched for has a run
+void require_run(const Design& design) {
+  if (!fixes_run(design.track.free_finish) || endpoints_of(design).run != 0.0) return;
+  throw InputError(
+      {design.where("track.finish.x"),
+       "track.finish.x: " + quantity_text(design.track.finish.x, Dimension::length) +
+           " is that of the start: there is no run",
+       "From there to there it is a fall straight down, which leaves a search nothing to choose.",
+       "a finish further out; or no limits, for the fall itself"});
+}
+
+}  // namespace
+
 Optimum pipeline::search_within_limits(const Design& design, const RunContext& context, int pieces) {
+  require_run(design);
   OptimizeOptions options;
   options.pieces = pieces;
   options.time_budget = context.time_budget;
