@@ -6,6 +6,7 @@
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
 #include "glissade/pipeline/rules.hpp"
+#include "glissade/trades/chute/wear.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -15,6 +16,7 @@
 #include <numbers>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -359,6 +361,32 @@ limits: {highest_floor_wear: 60 W/m^2}
   REQUIRE(rule != all.end());
   CHECK(rule->verdict == RuleVerdict::warn);
   CHECK(*rule->value > 4.2);
+}
+
+TEST_CASE("wear plates end where the floor wears half as much as at its peak") {
+  const Design design = parse_design(R"(glissade: 1
+track: {start: {x: 0 m, z: 100 m}}
+body: {friction_coefficient: 0.3, entry_speed: 2 m/s}
+stream: {mass_flow: 100 t/h, bulk_density: 1500 kg/m^3}
+centerline: {kind: segments, entry_slope_angle: 50 deg, segments: [{length: 7 m}, {length: 2 m, radius: 4 m}, {length: 5 m}]}
+cross_section: {kind: u-channel, width: 500 mm, wall_height: 300 mm, thickness: 5 mm}
+)",
+                                     "d.yaml");
+  const Track track = solve(design);
+  const WearFacts facts = wear_of({&track.motion});
+  REQUIRE_FALSE(facts.plates.empty());
+  const auto share = [&](double s) { return stream_state(track.motion, s).floor_wear / facts.floor.value; };
+  int crossed = 0;
+  for (const WearStretch& plate : facts.plates) {
+    for (const auto& [end, beyond] : {std::pair{plate.from, -1e-6}, std::pair{plate.to, 1e-6}}) {
+      if (end == 0.0 || end == track.motion.distance()) continue;
+      ++crossed;
+      CAPTURE(end, share(end));
+      CHECK(share(end) >= 0.5);
+      CHECK(share(end + beyond) < 0.5);
+    }
+  }
+  CHECK(crossed > 0);
 }
 
 TEST_CASE("where friction changes along the track, limits tell the wear of each place as the wear does") {

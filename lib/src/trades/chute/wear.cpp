@@ -54,18 +54,24 @@ void join(std::vector<WearStretch>& stretches) {
   stretches = std::move(joined);
 }
 
-/// Where on a ride the floor wears at least so much, with what lies between that and the place before.
+/// Where on a ride the floor wears at least so much: between two places found by halving, to the last side of them that does.
 void add_stretches(const Motion& ride, double least, std::vector<WearStretch>& stretches) {
+  constexpr double kClose = 1e-7;  // accuracy: a tenth of a micrometre [m]
+  const auto worn_at = [&](double s) { return stream_state(ride, s).floor_wear >= least; };
+  const auto edge = [&](double worn, double other) {
+    while (std::fabs(worn - other) > kClose) {
+      const double middle = 0.5 * (worn + other);
+      (worn_at(middle) ? worn : other) = middle;
+    }
+    return worn;
+  };
   const std::vector<double> places = places_of(ride);
   std::optional<double> from;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool worn = stream_state(ride, places[i]).floor_wear >= least;
-    if (worn && !from) {
-      const bool at_jump = i > 0 && places[i - 1] == std::nextafter(places[i], 0.0);
-      from = i == 0 || at_jump ? places[i] : places[i - 1];
-    }
+    const bool worn = worn_at(places[i]);
+    if (worn && !from) from = i == 0 ? places[i] : edge(places[i], places[i - 1]);
     if (worn && i + 1 < places.size()) continue;
-    if (from) stretches.push_back({*from, places[i]});
+    if (from) stretches.push_back({*from, worn ? places[i] : edge(places[i - 1], places[i])});
     from.reset();
   }
 }

@@ -22,7 +22,7 @@ struct WearFacts {
   std::size_t pressed_ride = 0;  ///< the one that it is of
   ValueAt wall;                  ///< greatest of the side walls, below the surface [W/m^2]
   double mean_floor = 0.0;       ///< mean W_c of that ride along the track [W/m^2]
-  /// Where the floor wears at least half as fast as at its peak on any of the rides: where wear plates go.
+  /// Where the floor wears at least half as fast as at its peak on any of the rides, to 1e-7 m: where wear plates go.
   std::vector<WearStretch> plates;
 };
 
