@@ -24,6 +24,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace widths_test {
@@ -197,7 +198,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("widths: where the width begins or ends to change rolled walls are pressed about the punch") {
+TEST_CASE(
+    "widths: where the width begins or ends to change walls are pressed about the punch, rolled or bent") {
   const WidthLaw widths(std::vector<WidthAt>{{1.0, 0.6}, {2.5, 0.4}});
   const double t = 4e-3;
   const section::UChannel channel{widths, 0.2, t};
@@ -205,11 +207,19 @@ TEST_CASE("widths: where the width begins or ends to change rolled walls are pre
   PlateOptions options = in_one_piece();
   options.flanges.wanted = false;
   const StraightLine line(Endpoints{4.0, 3.0});
-  for (const double radius : {t, 10e-3, 40e-3}) {
-    CAPTURE(radius);
+  for (const auto& [floor, radius] : std::vector<std::pair<FloorMake, double>>{{FloorMake::rolled, t},
+                                                                               {FloorMake::rolled, 10e-3},
+                                                                               {FloorMake::rolled, 40e-3},
+                                                                               {FloorMake::bent, t},
+                                                                               {FloorMake::bent, 10e-3},
+                                                                               {FloorMake::bent, 40e-3}}) {
+    const bool bent = floor == FloorMake::bent;
+    CAPTURE(bent, radius);
+    options.floor = floor;
     options.bend.inner_radius = radius;
     const WorkshopBuild build = plates_of(line, channel, options);
-    const ShopPart& wall = part_of(build, "left_wall");
+    // Both walls of bent plates are one part.
+    const ShopPart& wall = part_of(build, bent ? "wall" : "left_wall");
     REQUIRE(wall.pattern->bends.size() == 2);
     for (const BendLine& bend : wall.pattern->bends) {
       CHECK(bend.inner_radius == radius);
@@ -247,13 +257,17 @@ TEST_CASE("widths: where the width begins or ends to change rolled walls are pre
     }
     CHECK(bends >= 2);
   }
-  options.bend.inner_radius = 3e-3;
-  CHECK(refusal_of([&] {
-          return plates_of(line, channel, options);
-        }).find("bend.inner_radius|inner_radius: 3 mm is less than the plate's thickness") == 0);
-  // Where the width changes from end to end nothing is folded.
   const WidthLaw whole(std::vector<WidthAt>{{0.0, 0.6}, {5.0, 0.4}});
-  CHECK(plates_of(line, section::UChannel{whole, 0.2, t}, options).workshop.bends.empty());
+  for (const FloorMake floor : {FloorMake::rolled, FloorMake::bent}) {
+    options.floor = floor;
+    options.bend.inner_radius = 3e-3;
+    CHECK(refusal_of([&] {
+            return plates_of(line, channel, options);
+          }).find("bend.inner_radius|inner_radius: 3 mm is less than the plate's thickness") == 0);
+    // Where the width changes from end to end nothing is folded.
+    if (floor == FloorMake::bent) options.bend.inner_radius = t;
+    CHECK(plates_of(line, section::UChannel{whole, 0.2, t}, options).workshop.bends.empty());
+  }
 }
 
 TEST_CASE(

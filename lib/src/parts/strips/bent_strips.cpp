@@ -264,18 +264,41 @@ std::vector<BentStrips::Bend> BentStrips::bends_of(const SectionPlate& plate, do
     bend.angle = (towards > 0.0 ? 1.0 : -1.0) * math::atan2(sine, dot(before, normal(i)));
     const double pitch =
         0.5 * (norm(middle(i + 1, false) - middle(i, false)) + norm(middle(i, false) - middle(i - 1, false)));
-    const bool at_bend = stations_[i].kink != 0.0;
-    if (at_bend && bend.angle != 0.0) tightest = std::min(tightest, pitch / std::fabs(bend.angle));
-    bend.pressed = !at_bend && std::fabs(bend.angle) > kNoBend;
+    if (stations_[i].kink != 0.0 && bend.angle != 0.0)
+      tightest = std::min(tightest, pitch / std::fabs(bend.angle));
   }
-  if (springs(plate, tightest, thickness)) return bends;
+  // Folds where the width begins or ends to change are pressed in what springs, too.
+  const bool sprung = springs(plate, tightest, thickness);
+  const auto at_bend = [&](std::size_t i) { return stations_[stretch.first + i].kink != 0.0; };
   for (std::size_t i = 1; i + 1 < bends.size(); ++i) {
     const double angle = std::fabs(bends[i].angle);
-    if (stations_[stretch.first + i].kink == 0.0 || angle <= kNoBend) continue;
-    bends[i].pressed = true;
-    bends[i].cut = bend_cut(job_, thickness, angle);
+    if (angle <= kNoBend || (sprung && at_bend(i))) continue;
+    const double half = 0.5 * bend_cut(job_, thickness, angle);
+    bends[i] = {bends[i].angle, half, half, true};
+  }
+  for (std::size_t i = 1; i + 1 < bends.size(); ++i) {
+    if (bends[i].pressed && !at_bend(i)) share_fold(plate, stretch, i, bends);
   }
   return bends;
+}
+
+void BentStrips::share_fold(const SectionPlate& plate, const Stretch& stretch, std::size_t fold,
+                            std::vector<Bend>& bends) const {
+  constexpr double kRoom = 0.5;  // taste: of a flat that is too short for its share, as of rolled plates
+  const auto edge = [&](std::size_t k, Vec2 corner) {
+    return norm(place(stations_[k + 1], corner) - place(stations_[k], corner));
+  };
+  // What a bend of the line takes at the flat's other end is its own.
+  const auto room = [&](std::size_t k, double taken) {
+    const double whole = std::min(edge(k, plate.middle_from()), edge(k, plate.middle_to()));
+    return std::max(0.0, std::min(kRoom * whole, whole - taken));
+  };
+  const std::size_t i = stretch.first + fold;
+  const double before = room(i - 1, stations_[i - 1].kink == 0.0 ? 0.0 : bends[fold - 1].after);
+  const double after = room(i, stations_[i + 1].kink == 0.0 ? 0.0 : bends[fold + 1].before);
+  const double whole = bends[fold].before + bends[fold].after;
+  bends[fold].after = std::min(whole - std::min(bends[fold].before, before), after);
+  bends[fold].before = std::min(whole - bends[fold].after, before);
 }
 
 FoldedPlate BentStrips::body_of(const SectionPlate& plate, const Stretch& stretch) const {
@@ -313,7 +336,7 @@ BentStrips::Quad BentStrips::quad(const SectionPlate& plate, std::size_t i, doub
   const double to_angle = heading(across_to);
   if (level(plate)) {
     // Bends are level lines: the flat between them gets shorter, and keeps its widths.
-    const double run = norm(along - along.z * Vec3{0.0, 0.0, 1.0}) - 0.5 * (cut_from + cut_to);
+    const double run = norm(along - along.z * Vec3{0.0, 0.0, 1.0}) - cut_from - cut_to;
     // On the pattern the way from `face_to` to `face_from` is up, whichever it is in space.
     const double up = across_from.z > 0.0 ? 1.0 : -1.0;
     quad.base = {run, up * along.z};
@@ -321,7 +344,7 @@ BentStrips::Quad BentStrips::quad(const SectionPlate& plate, std::size_t i, doub
     return quad;
   }
   // The edges of a facet are parallel; both are shorter by what bends take, along them.
-  const double cut = 0.5 * (cut_from / math::sin(from_angle) + cut_to / math::sin(to_angle));
+  const double cut = cut_from / math::sin(from_angle) + cut_to / math::sin(to_angle);
   return {{norm(along) - cut, 0.0}, {norm(along + across_to - across_from) - cut, 0.0}, from_angle, to_angle};
 }
 
@@ -340,7 +363,7 @@ void BentStrips::develop(const SectionPlate& plate, double thickness, const Stre
     if (i == stretch.first) {
       ruling = quad(plate, i, 0.0, 0.0).from;
     } else {
-      const Quad facet = quad(plate, i - 1, bends[i - 1 - stretch.first].cut, bend.cut);
+      const Quad facet = quad(plate, i - 1, bends[i - 1 - stretch.first].after, bend.before);
       const auto [sine, cosine] = math::sine_cosine(ruling - facet.from);
       at =
           at + Vec2{facet.base.x * cosine - facet.base.y * sine, facet.base.x * sine + facet.base.y * cosine};
@@ -475,13 +498,13 @@ BentStrips::Expected BentStrips::expected(const Strip& strip) const {
   Expected all;
   for (std::size_t i = strip.first; i < strip.last; ++i) {
     all.volume += sense * (area * flat(i) - moment * narrowing(i)) + widened_volume(plate, i);
-    const double cut_from = bends[i - strip.first].cut;
-    const double cut_to = bends[i + 1 - strip.first].cut;
+    const double cut_from = bends[i - strip.first].after;
+    const double cut_to = bends[i + 1 - strip.first].before;
     const auto edge = [&](double height) {
       const double run = flat(i) - height * narrowing(i);
       if (level(plate)) {
         const auto wide = [&](std::size_t k) { return stations_[k].wide + height * stations_[k].lean; };
-        return math::hypot(run - 0.5 * (cut_from + cut_to), wide(i + 1) - wide(i));
+        return math::hypot(run - cut_from - cut_to, wide(i + 1) - wide(i));
       }
       const auto taken = [&](std::size_t k, double cut) {
         if (cut == 0.0) return 0.0;
@@ -490,7 +513,7 @@ BentStrips::Expected BentStrips::expected(const Strip& strip) const {
         const double turned = (k == i ? 1.0 : -1.0) * tan_half(stations_[k].kink);
         const Vec3 ruling{turned, lean, 1.0};
         const Vec3 along{1.0, half_of(plate) * taper(i), 0.0};
-        return 0.5 * cut * norm(ruling) * norm(along) / norm(cross(ruling, along));
+        return cut * norm(ruling) * norm(along) / norm(cross(ruling, along));
       };
       return math::hypot(1.0, taper(i)) * run - taken(i, cut_from) - taken(i + 1, cut_to);
     };

@@ -125,8 +125,9 @@ class BentStrips {
   };
   struct Bend {
     double angle = 0.0;  ///< positive towards the face
-    double cut =
-        0.0;  ///< by which both flats together are shorter than they are up to the corner, square to it
+    double before =
+        0.0;             ///< by which the flat before it is shorter than it is up to the corner, square to it
+    double after = 0.0;  ///< and the one after it
     bool pressed = false;
   };
 
@@ -163,6 +164,9 @@ class BentStrips {
                                            const Stretch& stretch) const;
   [[nodiscard]] Strip strip_of(const SectionPlate& plate, double thickness, const Stretch& stretch) const;
   [[nodiscard]] FoldedPlate body_of(const SectionPlate& plate, const Stretch& stretch) const;
+  /// Gives a fold on a flat no more of it than there is: the flat on its other side has the rest.
+  void share_fold(const SectionPlate& plate, const Stretch& stretch, std::size_t fold,
+                  std::vector<Bend>& bends) const;
   /// @param cut_from,cut_to  by its bends
   [[nodiscard]] Quad quad(const SectionPlate& plate, std::size_t i, double cut_from, double cut_to) const;
   [[nodiscard]] double widened_volume(const SectionPlate& plate, std::size_t i) const;

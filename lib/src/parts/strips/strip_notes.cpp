@@ -88,9 +88,10 @@ void note_sprung(const StripJob& job, const std::vector<Strip>& strips, Workshop
   if (names.empty()) return;
   std::string all;
   for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  workshop.notes.push_back(
-      all + ": all but upright, pressed nowhere, sprung into place; flats of the bodies meet at up to " +
-      angle_text(Angle::from_radians(largest), 2) + ".");
+  workshop.notes.push_back(all +
+                           ": all but upright, pressed at no bend of the floor, sprung into place; flats of "
+                           "the bodies meet at up to " +
+                           angle_text(Angle::from_radians(largest), 2) + ".");
 }
 
 }  // namespace
