@@ -71,3 +71,12 @@ TEST_CASE("plate facts: holes are told from where a bend begins, not from its mi
   const double half = 0.5 * 8.0 * 0.5 * std::numbers::pi;
   CHECK(least(part, "hole_bend_thicknesses") == Approx((50.0 - 8.0 - half) / 4.0).epsilon(1e-12));
 }
+
+TEST_CASE("plate facts: a bar is as wide as it is, however it is drawn") {
+  for (const double angle : {0.0, 0.1, std::numbers::pi / 4.0, 1.2}) {
+    CAPTURE(angle);
+    ShopPart part = sheet({});
+    part.pattern->region.outline = moved(rectangle({0.0, 0.0}, {0.4, 0.01}), PlaneMotion::turn(angle));
+    CHECK(least(part, "part_width") == Approx(10e-3).epsilon(1e-9));
+  }
+}

@@ -90,7 +90,7 @@ constexpr std::array kOfWorkshops = std::to_array<RuleQuantity>({
     {"part_mass", mass, "mass of a part"},
     {"part_mass_share", number, "mass of a part over the heaviest that the design allows"},
     {"part_sheet_share", number, "side of a flat pattern over that of its sheet"},
-    {"part_width", length, "shorter side of a flat pattern"},
+    {"part_width", length, "shorter side of the least rectangle round a flat pattern"},
     {"part_clearance_margin", length,
      "distance of a part from what the design keeps clear of, less what it asks, plus the tolerance of the "
      "arcs"},

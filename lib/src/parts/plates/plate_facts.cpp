@@ -7,6 +7,7 @@
 #include "glissade/core/slot.hpp"
 
 #include "core/arc_pieces.hpp"
+#include "core/least_rectangle.hpp"
 #include "parts/plates/fittings.hpp"
 #include "parts/shop/shop_facts.hpp"
 
@@ -137,7 +138,8 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
     const auto [shorter, longer] = std::minmax({box.width(), box.height()});
     facts.of(part, "part_sheet_share", longer, std::max(sheet.x, sheet.y));
     facts.of(part, "part_sheet_share", shorter, std::min(sheet.x, sheet.y));
-    facts.of(part, "part_width", shorter);
+    // Through the grate it falls however it is drawn.
+    facts.of(part, "part_width", core::least_size(part.pattern->region.outline).y);
   }
 }
 
