@@ -8,6 +8,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "parts/bodies/body_mesh.hpp"
+#include "parts/bodies/clash.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
 #include "parts/random_tracks.hpp"
@@ -300,6 +301,28 @@ TEST_CASE("sections: random sections, corners and fittings add up, do not clash 
     }
   }
   CHECK(cutouts > 10);
+}
+
+TEST_CASE("sections: frames begin below what of a rim folds back") {
+  section::Polygon folded;
+  folded.outline = {{-0.2, -6e-3}, {0.2, -6e-3},  {0.32, 0.2},    {0.31, 0.206},
+                    {0.196, 0.0},  {-0.196, 0.0}, {-0.31, 0.206}, {-0.32, 0.2}};
+  for (const FlangeSection kind : {FlangeSection::flat, FlangeSection::angle}) {
+    PlateOptions options;
+    options.flanges.section = kind;
+    if (kind == FlangeSection::angle) options.flanges.thickness = 5e-3;
+    const WorkshopBuild build = plates_of(chute(), folded, options);
+    require_sound(build);
+    CHECK(parts::require_no_clash(build.workshop) > 0);
+    const std::vector<const ShopPart*> frames =
+        named(build, kind == FlangeSection::flat ? "end_frame" : "frame_angle");
+    REQUIRE(!frames.empty());
+    // From the outer edge of the rim on one side to that on the other, lying across the floor.
+    if (kind == FlangeSection::angle) continue;
+    const PlaneBox box = bounds(std::get<Prism>(frames.front()->body).region.outline);
+    CHECK(box.high.y == Approx(0.2).margin(1e-9));
+    CHECK(box.low.y == Approx(-6e-3 - 0.5e-3 - 50e-3).margin(1e-9));
+  }
 }
 
 TEST_CASE("sections: what geometry forbids is refused with place, value, bound and a way out") {

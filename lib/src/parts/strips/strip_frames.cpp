@@ -66,7 +66,7 @@ std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
   for (const double place : {s - t, s, s + t}) wider = std::max(wider, job.wider_at(place));
   std::vector<Vec2> corners;
   for (const Vec2 corner : job.section.outside) corners.push_back(job.at(corner, wider, lean));
-  return corners;
+  return line_of_frames(std::move(corners), job.section.ring, job.options.flanges);
 }
 
 /// Of the uppermost bolts, from the ends of the chain on which they stand.
@@ -108,6 +108,13 @@ ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, FlangeS
         return along_chain(chain, section.ring, with.pitch, frame_edge(outside, chain, section.ring, with));
       },
       pattern.region);
+  if (!faults_of(pattern.region).empty()) {
+    throw InputError(
+        {"flanges",
+         "flanges: a frame of " + length_text(flange.width) + " round this section runs into itself",
+         "Its sides are moved out by that, its ends are level.",
+         "flanges: none, a smaller width, or a section whose rims are level"});
+  }
   ShopPart part;
   part.name = frame_name("end_frame", flange, of_joint);
   part.material = job.options.material.name;
@@ -159,6 +166,23 @@ std::size_t add_angles(const StripJob& job, const std::optional<BentStrips>& ben
 }
 
 }  // namespace
+
+std::vector<Vec2> line_of_frames(std::vector<Vec2> outside, bool ring, const FlangeOptions& frame) {
+  // A side whose far edge would lead the other way.
+  const auto turned = [&](std::size_t i) {
+    const std::vector<Vec2> far = moved_to_left(outside, false, frame.gap + frame.width);
+    return !(dot(far[i + 1] - far[i], outside[i + 1] - outside[i]) > 0.0);
+  };
+  while (!ring && outside.size() > 2) {
+    if (turned(0))
+      outside.erase(outside.begin());
+    else if (turned(outside.size() - 2))
+      outside.pop_back();
+    else
+      break;
+  }
+  return outside;
+}
 
 void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent,
                       const std::vector<double>& joints, Workshop& workshop) {

@@ -12,7 +12,14 @@ namespace glissade::parts {
 
 /// Frames round both ends of every unit of strips, one for each joint and side.
 
+/// The line round which frames go: a section's outside without what of its rims folds back over it. Of those the frame's edge
+/// would run into the frame.
+/// @param ring  whether it is closed: then nothing is left out
+[[nodiscard]] std::vector<Vec2> line_of_frames(std::vector<Vec2> outside, bool ring,
+                                               const FlangeOptions& frame);
+
 /// @param bent  none: the plates are rolled
+/// @throws InputError where a frame would run into itself
 void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent,
                       const std::vector<double>& joints, Workshop& workshop);
 

@@ -173,7 +173,10 @@ void set_on_strips(const StripJob& job, const std::optional<BentStrips>& bent, c
 
 std::vector<Issue> strip_problems(const PlateSection& section, const PlateOptions& options) {
   std::vector<Issue> issues;
-  if (section.convex) add_angle_seat_problems({section.outside, section.ring}, options, issues);
+  if (section.convex) {
+    add_angle_seat_problems({line_of_frames(section.outside, section.ring, options.flanges), section.ring},
+                            options, issues);
+  }
   if (options.floor == FloorMake::bent) {
     if (auto issue = too_tight_a_bend(section.thickness, options)) issues.push_back(std::move(*issue));
   }
