@@ -90,6 +90,28 @@ void object_to_bolts(const PlateOptions& options, Objections& objections) {
   }
 }
 
+void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& options, Objections& objections);
+
+/// A frame no wider than the walls are high, with the largest bolt that finds place in it.
+std::string frame_that_fits(const ChannelMeasures& channel, const PlateOptions& options) {
+  const bool angle = options.flanges.section == FlangeSection::angle;
+  std::vector<int> sizes = bolt_sizes();
+  std::sort(sizes.rbegin(), sizes.rend());
+  PlateOptions with = options;
+  with.flanges.width = channel.wall_height;
+  for (const int size : sizes) {
+    if (angle || size > options.flanges.bolt) continue;
+    with.flanges.bolt = size;
+    Objections left;
+    object_to_flanges(channel, with, left);
+    if (!left.issues().empty()) continue;
+    return "width: " + length_text(channel.wall_height) +
+           (size == options.flanges.bolt ? "" : " with bolt: M" + std::to_string(size)) +
+           ", or flanges: none";
+  }
+  return angle ? "a narrower angle, or flanges: none" : "higher walls, or flanges: none";
+}
+
 void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& options, Objections& objections) {
   const FlangeOptions& flange = options.flanges;
   object_to_bolts(options, objections);
@@ -105,7 +127,8 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
     objections.add("flanges.width",
                    "width: " + length_text(flange.width) + " is more than the walls are high, " +
                        length_text(channel.wall_height),
-                   "The frame would stand out farther than the channel is deep.", "a smaller width");
+                   "The frame would stand out farther than the channel is deep.",
+                   frame_that_fits(channel, options));
     return;
   }
   if (flange.section == FlangeSection::angle) {
