@@ -519,3 +519,63 @@ TEST_CASE("plates: a bar that goes through a plate between all of its corners is
     CHECK(parts::require_no_clash(workshop) == 1);
   }
 }
+
+TEST_CASE("bent floors: bends that cost more speed than is asked for are told, with why and what would do") {
+  const auto note_of = [](const WorkshopBuild& build) {
+    std::string found;
+    for (const std::string& note : build.workshop.notes) {
+      if (note.starts_with("speed_loss")) found = note;
+    }
+    return found;
+  };
+  const auto cost_of = [](const WorkshopBuild& build) {
+    return 1.0 - build.ride.exit_speed / build.ride.design_exit_speed;
+  };
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  // On a crest flats bear what a curve takes off, however short they are.
+  const ClothoidSpline crest(Angle::from_degrees(35.0), {{2.0, 0.0, 0.0}, {2.0, -0.15, -0.15}});
+  for (const section::Measures& measures :
+       {section::Measures(section::UChannel{WidthLaw(0.4), 0.25, 4e-3}),
+        section::Measures(section::Trapezoid{WidthLaw(0.4), 0.25, Angle::from_degrees(20.0), 4e-3})}) {
+    options.bend.value = 0.01;
+    const WorkshopBuild missed = plates_of(crest, measures, options);
+    REQUIRE(missed.ride.arrives);
+    REQUIRE(cost_of(missed) > 0.011);
+    const std::string note = note_of(missed);
+    INFO(note);
+    CHECK(note.find("speed_loss: 1 % is not reached: " + std::to_string(missed.ride.bends) +
+                    " bends cost ") == 0);
+    CHECK(note.find("on a crest flats bear the weight that a curve takes off") != std::string::npos);
+    CHECK(note.find(", or floor: rolled.") != std::string::npos);
+    // What it says would do does.
+    const std::string key = "Try: speed_loss: ";
+    options.bend.value = 0.01 * std::stod(note.substr(note.find(key) + key.size()));
+    const WorkshopBuild kept = plates_of(crest, measures, options);
+    CHECK(note_of(kept).empty());
+    CHECK(cost_of(kept) < 1.05 * options.bend.value);
+  }
+  // In a hollow flats that are no shorter than the press makes them hold it up.
+  const ClothoidSpline hollow(Angle::from_degrees(60.0), {{1.0, 0.0, 0.0}, {0.3, 3.0, 3.0}, {0.5, 0.0, 0.0}});
+  options.bend.value = 0.001;
+  options.split.sheet = {20.0, 8.0};
+  options.flanges.wanted = false;
+  const std::string note = note_of(plates_of(hollow, section::UChannel{WidthLaw(0.4), 0.1, 4e-3}, options));
+  CHECK(note.find("Flats are as short as the shop makes them, 16 mm.") != std::string::npos);
+}
+
+TEST_CASE("channels: a frame wider than the walls are high is refused with one that finds place") {
+  PlateOptions told;
+  told.flanges.as_told = true;
+  const auto refused = [&](double height) { return refusal(told, {0.06, height, 1e-3}); };
+  CHECK(
+      refused(0.020).find("flanges.width|width: 50 mm is more than the walls are high, 20 mm|The frame would "
+                          "stand out farther than the channel is deep.|width: 20 mm with bolt: M6, or "
+                          "flanges: none") == 0);
+  told.flanges.width = 20e-3;
+  told.flanges.bolt = 6;
+  CHECK(refused(0.020).empty());
+  told.flanges.width = 50e-3;
+  CHECK(refused(0.020).find("|width: 20 mm, or flanges: none") != std::string::npos);
+  CHECK(refused(0.005).find("|higher walls, or flanges: none") != std::string::npos);
+}

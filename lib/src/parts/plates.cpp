@@ -208,6 +208,16 @@ double k_factor(double inner_radius, double thickness) {
 
 namespace {
 
+/// Of a bent floor that costs more speed than is asked for.
+void note_missed_bends(const Job& job, const std::vector<Unit>& units, const Motion& design, const Body& body,
+                       double gravity, Workshop& workshop) {
+  if (job.options.floor != FloorMake::bent) return;
+  std::vector<Facets> facets;
+  for (const Unit& unit : units) facets.push_back(*unit.face.facets);
+  note_missed_speed(job.track, job.options.bend, facets, least_flat(job.channel.thickness, job.options, 0.0),
+                    ", or floor: rolled", body, gravity, design.exit_speed(), workshop);
+}
+
 WorkshopBuild make_channel(const Centerline& track, const ChannelMeasures& channel,
                            const MasterCurveOptions& fit, const PlateOptions& options,
                            const Placement& placement, const Body& body, double gravity) {
@@ -246,6 +256,7 @@ WorkshopBuild make_channel(const Centerline& track, const ChannelMeasures& chann
   build.proof = prove(job, units, workshop);
   add_corner_note(job, workshop);
   note_differences(build.proof, "the plain channel", workshop);
+  note_missed_bends(job, units, smooth, body, gravity, workshop);
   return build;
 }
 

@@ -64,12 +64,22 @@ double bend_cut(const StripJob& job, double thickness, double angle) {
   return 2.0 * (radius + 0.5 * thickness) * tan_half(angle) - (radius + neutral * thickness) * angle;
 }
 
+namespace {
+
+/// Within the frames at its ends a unit is straight, down to its lowest corner beside bends of some degrees.
+double below_frames(const StripJob& job) {
+  return kSteep * std::max(job.section.highest, -job.section.lowest);
+}
+
+}  // namespace
+
+double least_bent_flat(const StripJob& job) {
+  return least_flat(job.section.thickness, job.options, below_frames(job));
+}
+
 Facets bent_flats(const StripJob& job, const Span& span, double largest_kink) {
-  // Within the frames at its ends a unit is straight, down to its lowest corner beside bends of some degrees.
-  const double below = kSteep * std::max(job.section.highest, -job.section.lowest);
-  const double least = least_flat(job.section.thickness, job.options, below);
-  return facets_by_rule(job.track, span, job.options.bend, largest_kink, least,
-                        least_end_flat(job.options, below));
+  return facets_by_rule(job.track, span, job.options.bend, largest_kink, least_bent_flat(job),
+                        least_end_flat(job.options, below_frames(job)));
 }
 
 BentStrips::BentStrips(const StripJob& job, double largest_kink, const std::vector<double>& joints)

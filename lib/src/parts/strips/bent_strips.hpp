@@ -50,6 +50,8 @@ inline constexpr double kNoBend = 1e-6;
 /// @return by how much both flats of a bend together are shorter on the flat than up to their corner, in the middle of the thickness
 [[nodiscard]] double bend_cut(const StripJob& job, double thickness, double angle);
 
+/// @return how short a flat may be [m]
+[[nodiscard]] double least_bent_flat(const StripJob& job);
 /// @return flats of a stretch by the rule of the job
 [[nodiscard]] Facets bent_flats(const StripJob& job, const Span& span, double largest_kink);
 
