@@ -214,7 +214,7 @@ void note_missed_bends(const Job& job, const std::vector<Unit>& units, const Mot
   if (job.options.floor != FloorMake::bent) return;
   std::vector<Facets> facets;
   for (const Unit& unit : units) facets.push_back(*unit.face.facets);
-  note_missed_speed(job.track, job.options.bend, facets, least_flat(job.channel.thickness, job.options, 0.0),
+  note_missed_speed(job.options.bend, facets, least_flat(job.channel.thickness, job.options, 0.0),
                     ", or floor: rolled", body, gravity, design.exit_speed(), workshop);
 }
 

@@ -205,9 +205,9 @@ double kink_for_speed(const ArcSpline& track, const BendOptions& bend,
   return turning / count;
 }
 
-void note_missed_speed(const ArcSpline& track, const BendOptions& bend, const std::vector<Facets>& units,
-                       double least, const std::string& or_else, const Body& body, double gravity,
-                       double design_speed, Workshop& workshop) {
+void note_missed_speed(const BendOptions& bend, const std::vector<Facets>& units, double least,
+                       const std::string& or_else, const Body& body, double gravity, double design_speed,
+                       Workshop& workshop) {
   if (bend.rule != FacetRule::speed_loss) return;
   constexpr double kMissed = 1.05;  // rounding: of what is asked for; ends of units cost as much
   const auto cost = [&](const std::vector<Facets>& facets) -> std::optional<double> {
@@ -219,21 +219,14 @@ void note_missed_speed(const ArcSpline& track, const BendOptions& bend, const st
   if (!reached || !(*reached > kMissed * bend.value)) return;
   std::size_t bends = 0;
   for (const Facets& facets : units) bends += facets.bends();
-  constexpr double kFine = 1e-3;  // accuracy: bends so small [rad] cost next to nothing by their own angle
-  const auto finest = cost({facets_by_angle(track, {0.0, track.length()}, kFine, 0.0, 0.0)});
   const auto share = [](double value, int digits) { return rounded_text(1e2 * value, digits) + " %"; };
-  std::string why = "Flats are as short as the shop makes them, " + length_text(least, 3) + ".";
-  if (finest && *finest > bend.value) {
-    why = "However many there were, they would cost " + share(*finest, 2) +
-          ": on a crest flats bear the weight that a curve takes off.";
-  }
   // Up to tenths of a percent, with room for the ends of units.
   constexpr double kTenth = 1e-3;  // taste: of a percent
   const double would_do = kTenth * std::ceil(kMissed * *reached / kTenth);
-  workshop.notes.push_back("speed_loss: " + share(bend.value, 4) +
-                           " is not reached: " + std::to_string(bends) + " bends cost " + share(*reached, 2) +
-                           " of the exit speed. " + why + " Try: speed_loss: " + share(would_do, 4) +
-                           or_else + ".");
+  workshop.notes.push_back(
+      "speed_loss: " + share(bend.value, 4) + " is not reached: " + std::to_string(bends) + " bends cost " +
+      share(*reached, 2) + " of the exit speed. Flats are as short as the shop makes them, " +
+      length_text(least, 3) + ". Try: speed_loss: " + share(would_do, 4) + or_else + ".");
 }
 
 std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split, std::size_t count) {

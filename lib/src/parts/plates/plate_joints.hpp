@@ -63,9 +63,9 @@ struct Unit {
 /// A note where bends cost more of the exit speed than is asked for: how much, why, and what would do.
 /// @param least    length of a flat that the shop makes [m]
 /// @param or_else  another way out, after a comma; may be empty
-void note_missed_speed(const ArcSpline& track, const BendOptions& bend, const std::vector<Facets>& units,
-                       double least, const std::string& or_else, const Body& body, double gravity,
-                       double design_speed, Workshop& workshop);
+void note_missed_speed(const BendOptions& bend, const std::vector<Facets>& units, double least,
+                       const std::string& or_else, const Body& body, double gravity, double design_speed,
+                       Workshop& workshop);
 
 /// @return flats of a stretch by a rule
 /// @param least,least_end  as facets_by_angle()

@@ -805,7 +805,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   measure_steps(places_of(job, units, build.joints), options, build);
   build.proof = prove(job, units, rooms, workshop);
   note_differences(build.proof, "the plain pipe", workshop);
-  note_missed_speed(track, options.bend, {facets}, job.least_crown(), "", body, gravity, design.exit_speed(),
+  note_missed_speed(options.bend, {facets}, job.least_crown(), "", body, gravity, design.exit_speed(),
                     workshop);
   return build;
 }
