@@ -39,7 +39,7 @@ TEST_CASE("a search straight down is refused at the finish, with what to try") {
       "down.yaml");
   CHECK_THROWS_WITH(solve(design),
                     Catch::Matchers::Contains("down.yaml:2:") &&
-                        Catch::Matchers::Contains("track.finish.x: 0 m is that of the start") &&
+                        Catch::Matchers::Contains("track.finish.x: 0 mm is that of the start") &&
                         Catch::Matchers::Contains("a finish further out"));
 }
 
