@@ -14,6 +14,8 @@
 #include "pipeline/cross_section.hpp"
 #include "pipeline/probes.hpp"
 
+#include <cmath>
+
 namespace glissade {
 
 using namespace pipeline;
