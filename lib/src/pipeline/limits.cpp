@@ -448,6 +448,42 @@ std::optional<Issue> limits_problem(const Design& design, const Track& track) {
                "kind: fastest, which is found within the limits, or other limits"};
 }
 
+namespace {
+
+/// What a track is the most of, as an adjective of it.
+const char* best_text(ObjectiveKind kind) {
+  switch (kind) {
+    case ObjectiveKind::exit_speed:
+      return "of the highest exit speed";
+    case ObjectiveKind::least_wear:
+      return "of the least wear";
+    case ObjectiveKind::least_peak_wear:
+      return "of the least peak wear";
+    case ObjectiveKind::even_speed:
+      return "of the most even speed";
+    case ObjectiveKind::least_drop:
+      return "lowest";
+    case ObjectiveKind::least_length:
+      return "shortest";
+    case ObjectiveKind::least_load:
+      return "of the least load";
+    case ObjectiveKind::least_curvature_rate:
+      return "of the most gradual bends";
+    case ObjectiveKind::blend:
+      return "of the best blend of travel time and exit speed";
+    case ObjectiveKind::travel_time:
+      break;
+  }
+  return "fastest";
+}
+
+}  // namespace
+
+std::string searched_name(const Design& design) {
+  return std::string(best_text(design.objective.kind)) +
+         (design.limits ? " within the limits" : ", searched for");
+}
+
 std::optional<Issue> search_problem(const Design& design, const Track& track) {
   if (!track.search || track.search->status == OptimizeStatus::optimal) return {};
   const bool ended_early = track.search->ended_early;

@@ -1,4 +1,4 @@
-// What is wrong with a ride, in words; and what a track is called that was searched for.
+// What is wrong with a ride, in words.
 
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
@@ -21,42 +21,6 @@
 namespace glissade {
 
 using namespace pipeline;
-
-namespace {
-
-/// What a track is the most of, as an adjective of it.
-const char* best_text(ObjectiveKind kind) {
-  switch (kind) {
-    case ObjectiveKind::exit_speed:
-      return "of the highest exit speed";
-    case ObjectiveKind::least_wear:
-      return "of the least wear";
-    case ObjectiveKind::least_peak_wear:
-      return "of the least peak wear";
-    case ObjectiveKind::even_speed:
-      return "of the most even speed";
-    case ObjectiveKind::least_drop:
-      return "lowest";
-    case ObjectiveKind::least_length:
-      return "shortest";
-    case ObjectiveKind::least_load:
-      return "of the least load";
-    case ObjectiveKind::least_curvature_rate:
-      return "of the most gradual bends";
-    case ObjectiveKind::blend:
-      return "of the best blend of travel time and exit speed";
-    case ObjectiveKind::travel_time:
-      break;
-  }
-  return "fastest";
-}
-
-}  // namespace
-
-std::string searched_name(const Design& design) {
-  return std::string(best_text(design.objective.kind)) +
-         (design.limits ? " within the limits" : ", searched for");
-}
 
 namespace {
 

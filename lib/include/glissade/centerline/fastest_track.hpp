@@ -13,7 +13,8 @@ struct FastestTrack {
 };
 
 /// @param entry_speed  [m/s]; finite, >= 0, however small or large
-/// @throws InputError if entry_speed is negative or not finite; as solve_coulomb_brachistochrone from rest, as solve_flying_start with an entry speed
+/// @throws InputError if entry_speed is negative or not finite; else as solve_coulomb_brachistochrone from rest, as
+///         solve_flying_start with an entry speed
 [[nodiscard]] FastestTrack fastest_track(const Endpoints& endpoints, Friction friction, double entry_speed,
                                          double gravity = kDefaultGravity);
 
