@@ -74,10 +74,11 @@ ExitCode build_once(const BuildArguments& options) {
       throw;
     }
   }();
+  const std::string kept = "All files are written, into " + directory_of(options).string() + ".";
   if (options.json) {
-    print(build_json(design, made));
+    print(build_json(design, made), kept);
   } else if (!options.verbosity.quiet()) {
-    print(build_summary(design, made));
+    print(build_summary(design, made), kept);
   }
   print_warnings(warnings(design, made.track));
   if (const auto problem = search_problem(design, made.track)) throw ConvergenceError(*problem);

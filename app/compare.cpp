@@ -14,6 +14,7 @@
 #include "app/law_text.hpp"
 #include "app/limits_text.hpp"
 #include "app/option_value.hpp"
+#include "app/output_files.hpp"
 #include "app/progress_line.hpp"
 #include "app/searched_track.hpp"
 #include "app/summary.hpp"
@@ -24,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -360,26 +362,29 @@ std::vector<Figure> figures_of(const CompareArguments& options, const Design& de
   return options.frictions.empty() ? kinds_figures(design, entries, context) : sweep_figures(entries);
 }
 
-void write_text(const std::string& file, const std::string& text) {
-  write_atomically(file, text);
-}
-
-void write_figures(const CompareArguments& options, const Design& design, const Comparison& comparison,
-                   const RunContext& context) {
-  if (options.svg.empty() && options.html.empty()) return;
-  const std::vector<Figure> figures = figures_of(options, design, comparison.entries, context);
-  if (!options.svg.empty()) write_text(options.svg, figures_svg(figures));
-  if (options.html.empty()) return;
+std::string page_of(const CompareArguments& options, const Comparison& comparison,
+                    const std::vector<Figure>& figures) {
   const bool several = !options.others.empty();
   const Table table = several ? designs_page_table(comparison.entries) : comparison.table;
   const auto& rows = table.rows();
   std::vector<std::string> choices;
   if (several) choices = design_names(comparison.entries);
-  write_text(options.html, figure_page_html({comparison.heading,
-                                             comparison.task,
-                                             figures,
-                                             {rows.front(), {rows.begin() + 1, rows.end()}},
-                                             std::move(choices)}));
+  return figure_page_html({comparison.heading,
+                           comparison.task,
+                           figures,
+                           {rows.front(), {rows.begin() + 1, rows.end()}},
+                           std::move(choices)});
+}
+
+void write_files(const CompareArguments& options, const Comparison& comparison,
+                 const std::vector<Figure>& figures) {
+  using Path = std::filesystem::path;
+  OutputFiles files;
+  files.make(options.svg, [&](const Path& svg) { write_atomically(svg, figures_svg(figures)); });
+  files.make(options.html,
+             [&](const Path& page) { write_atomically(page, page_of(options, comparison, figures)); });
+  files.make(options.csv, [&](const Path& csv) { write_atomically(csv, curves_csv(comparison.entries)); });
+  files.put_in_place();
 }
 
 ExitCode compare(const CompareArguments& options) {
@@ -389,20 +394,25 @@ ExitCode compare(const CompareArguments& options) {
   if (!options.others.empty() && !frictions.empty()) {
     throw InputError({"--friction-sweep", "it cannot be combined with several designs", "", ""});
   }
+  std::vector<Figure> figures;
   const Comparison comparison = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
     const RunContext context = interrupt.context(progress.callback(), options.time_budget.seconds());
     Comparison made = comparison_of(options, design, frictions, context);
-    write_figures(options, design, made, context);
+    if (!options.svg.empty() || !options.html.empty())
+      figures = figures_of(options, design, made.entries, context);
     return made;
   }();
-  if (!options.csv.empty()) write_text(options.csv, curves_csv(comparison.entries));
+  write_files(options, comparison, figures);
+  const bool files = !(options.svg.empty() && options.html.empty() && options.csv.empty());
+  const std::string kept = files ? "The files that were asked for are written." : "";
   if (options.json) {
-    print(json_of(options, design, comparison.entries));
+    print(json_of(options, design, comparison.entries), kept);
   } else {
     print(emphasised(comparison.heading, Emphasis::heading) + "\n  " + comparison.task + "\n\n" +
-          comparison.table.text());
+              comparison.table.text(),
+          kept);
   }
   for (const Entry& entry : comparison.entries) {
     if (entry.track) require_searched_through(entry.design, *entry.track);

@@ -5,7 +5,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -24,12 +26,14 @@ Issue unwritable_output(int error) {
 
 }  // namespace
 
-void print(std::string_view text) {
+void print(std::string_view text, std::string_view kept) {
   errno = 0;
   const bool written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (written || errno == EPIPE) return;
-  throw FileError(unwritable_output(errno));
+  Issue issue = unwritable_output(errno);
+  if (!kept.empty()) issue.why = std::string(kept) + " Only what was to be printed is lost.";
+  throw FileError(std::move(issue));
 }
 
 void reserve_standard_streams() {

@@ -9,8 +9,9 @@
 namespace glissade::app {
 
 /// Writes to standard output and flushes. A reader that went away (a pipe that is closed) is no error.
+/// @param kept  what is done and stays where this text is lost: "The files are written, into out/chute."; may be empty
 /// @throws FileError if the bytes cannot be written: a full disk, a stream that was closed from the start
-void print(std::string_view text);
+void print(std::string_view text, std::string_view kept = {});
 
 /// Gives closed standard streams a file that refuses every byte, so that no file that is opened later takes
 /// their number, and with it what is printed. To be called before any file is opened.

@@ -1,10 +1,11 @@
 #include "glissade/core/error.hpp"
-#include "glissade/io/atomic_file.hpp"
+#include "glissade/io/made_directories.hpp"
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/help.hpp"
 #include "app/man_page.hpp"
+#include "app/output_files.hpp"
 #include "app/usage_problem.hpp"
 
 #include <filesystem>
@@ -32,25 +33,23 @@ struct HelpArguments {
   std::string directory;
 };
 
-void write_page(const std::filesystem::path& directory, const HelpPage& page,
-                const std::vector<std::string>& also) {
-  AtomicFile file(directory / (man_name(page) + ".1"));
-  file.write(man_page(page, also));
-  file.commit();
+void add_page(FileSet& files, const std::filesystem::path& directory, const HelpPage& page,
+              const std::vector<std::string>& also) {
+  files.put(directory / (man_name(page) + ".1"), man_page(page, also));
 }
 
 void write_man_pages(const CLI::App& program, const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error)
-    throw FileError({directory.string(), "the directory cannot be made: " + error.message(), "", ""});
+  MadeDirectories made;  // gone where the pages cannot be written
+  made.make(directory);
+  OutputFiles files;
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
     const HelpPage page = help_page(*command);
     names.push_back(man_name(page));
-    write_page(directory, page, {"glissade"});
+    add_page(files.set(), directory, page, {"glissade"});
   }
-  write_page(directory, help_page(program), names);
+  add_page(files.set(), directory, help_page(program), names);
+  files.put_in_place();
 }
 
 ExitCode help(const CLI::App& program, const HelpArguments& options) {

@@ -2,19 +2,18 @@
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/design/schema.hpp"
 #include "glissade/design/template.hpp"
-#include "glissade/io/atomic_file.hpp"
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/new_file.hpp"
 #include "app/option_value.hpp"
+#include "app/output_files.hpp"
 #include "app/usage_problem.hpp"
 
 #include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -49,10 +48,6 @@ std::string footer() {
          "\n"
          "Beside a file goes its schema, glissade.schema.json, for editors that check and complete YAML;\n"
          "'glissade schema' prints it.";
-}
-
-void write(const std::filesystem::path& path, std::string_view text) {
-  write_atomically(path, text);
 }
 
 std::string profile_note() {
@@ -96,11 +91,13 @@ ExitCode write_template(const CLI::App& command, const InitArguments& options) {
     require_new(path);
     if (needs_profile) require_new(profile);
   }
-  write(path, text);
+  OutputFiles files;
+  files.set().put(path, text);
   // What the first line of the design names; one that is there may be of a newer Glissade.
   const std::filesystem::path schema = path.parent_path() / kSchemaName;
-  if (!std::filesystem::exists(schema)) write(schema, design_schema());
-  if (needs_profile) write(profile, design_template_profile());
+  if (!std::filesystem::exists(schema)) files.set().put(schema, design_schema());
+  if (needs_profile) files.set().put(profile, design_template_profile());
+  files.put_in_place();
   return ExitCode::done;
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
+#include "app/interrupt.hpp"
 #include "app/option_value.hpp"
 #include "app/searched_track.hpp"
 #include "app/table.hpp"
@@ -91,10 +92,15 @@ ExitCode draw_profile(const ProfileArguments& options) {
   const std::filesystem::path folder = options.directory.empty()
                                            ? std::filesystem::path("out") / design.file.stem()
                                            : std::filesystem::path(options.directory);
-  const std::vector<std::filesystem::path> files = write_profile(folder, design, track, wanted);
-  print(labelled("Section", files[0].generic_string()) + labelled("Sheets", files[1].generic_string()) +
-        labelled("Coordinates", files[2].generic_string() + ", " + std::to_string(stations) + " stations") +
-        (files.size() > 3 ? labelled("Cross-section", files[3].generic_string()) : ""));
+  const std::vector<std::filesystem::path> files = [&] {
+    const Interrupt interrupt;  // who ends it then finds all of the files, or none
+    return write_profile(folder, design, track, wanted);
+  }();
+  print(
+      labelled("Section", files[0].generic_string()) + labelled("Sheets", files[1].generic_string()) +
+          labelled("Coordinates", files[2].generic_string() + ", " + std::to_string(stations) + " stations") +
+          (files.size() > 3 ? labelled("Cross-section", files[3].generic_string()) : ""),
+      "All files are written, into " + folder.string() + ".");
   require_searched_through(design, track);
   return ExitCode::done;
 }

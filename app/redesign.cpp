@@ -199,14 +199,16 @@ ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options
     return redesign(design, asked, interrupt.context(progress.callback(), options.time_budget.seconds()));
   }();
   write_design(options, design, found);
+  const std::string kept = options.output.empty() ? "" : "The design is written, as " + options.output + ".";
   if (options.json) {
-    print(redesign_json(design, found));
+    print(redesign_json(design, found), kept);
   } else {
     const std::string heading = design.name.empty() ? std::string("In-run") : design.name;
     print(emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
-          ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
-          rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
-          "\n" + prices_text(found) + free_text(found) + breaks_text(found) + area_text(found));
+              ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
+              rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
+              "\n" + prices_text(found) + free_text(found) + breaks_text(found) + area_text(found),
+          kept);
   }
   const bool whole = found.shapes.back().track != nullptr;
   return whole ? ExitCode::done : ExitCode::not_converged;

@@ -128,14 +128,16 @@ ExitCode judge_design(const RulesArguments& options) {
   }
   const Verdicts verdicts = judged(design, options);
   if (!options.csv.empty()) write_verdicts_csv(options.csv, verdicts.rules);
+  const std::string kept = options.csv.empty() ? "" : "The table is written, as " + options.csv + ".";
   if (options.json) {
-    print(verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr));
+    print(verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr),
+          kept);
   } else {
     const std::string heading = design.name.empty() ? std::string("Track") : design.name;
     std::string text = emphasised(heading, Emphasis::heading) + "\n";
     if (!verdicts.rules.empty()) text += "\n" + verdicts_table(verdicts.rules);
     if (verdicts.made) text += "\n" + shop_table(verdicts.made->workshop.checks);
-    print(text);
+    print(text, kept);
   }
   if (verdicts.fail()) return ExitCode::faulty;
   require_searched_through(design, verdicts.track);

@@ -5,11 +5,13 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/option_value.hpp"
+#include "app/output_files.hpp"
 #include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -49,13 +51,19 @@ void require_sound(const Design& design, const Track& track) {
   require_searched_through(design, track);
 }
 
+void write_files(const SolveArguments& options, const Design& design, const Track& track) {
+  OutputFiles files;
+  files.make(options.csv, [&](const std::filesystem::path& csv) { write_track_csv(csv, track); });
+  if (!options.frozen.empty()) add_frozen_design(files.set(), options.frozen, design, track);
+  files.put_in_place();
+}
+
 ExitCode solve_track(const SolveArguments& options) {
   const Design design = options.input.design();
   try {
     const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
     print(options.json ? track_json(design, track) : track_summary(design, track));
-    if (!options.csv.empty()) write_track_csv(options.csv, track);
-    if (!options.frozen.empty()) write_frozen_design(options.frozen, design, track);
+    write_files(options, design, track);
     print_warnings(warnings(design, track));
     require_sound(design, track);
   } catch (const LimitsConflict& conflict) {

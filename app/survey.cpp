@@ -10,6 +10,7 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/option_value.hpp"
+#include "app/output_files.hpp"
 #include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
@@ -17,6 +18,7 @@
 #include "app/track_input.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -152,12 +154,12 @@ ExitCode survey(const SurveyArguments& options) {
   const SurveyRides rides = ride_survey(track.centerline, found, track.motion.body(), design.gravity);
   print(options.json ? survey_json(design, found, rides, wanted)
                      : survey_summary(design, found, rides, wanted));
-  if (!options.csv.empty()) write_survey_csv(options.csv, found);
-  if (!options.svg.empty()) {
-    AtomicFile file(options.svg);
-    file.write(figures_svg(survey_figures(track, found, rides, wanted)));
-    file.commit();
-  }
+  OutputFiles files;
+  files.make(options.csv, [&](const std::filesystem::path& csv) { write_survey_csv(csv, found); });
+  files.make(options.svg, [&](const std::filesystem::path& svg) {
+    write_atomically(svg, figures_svg(survey_figures(track, found, rides, wanted)));
+  });
+  files.put_in_place();
   if (!found.sound()) return ExitCode::faulty;
   require_searched_through(design, track);
   return ExitCode::done;

@@ -163,7 +163,9 @@ ExitCode merge_chunks(const SweepArguments& options) {
     ProgressLine progress(options.verbosity);
     return study::merge(results, options.output, progress.callback(), interrupt.token());
   }();
-  if (!options.verbosity.quiet()) print(counts_text(counts) + "\n  " + options.output + "\n");
+  if (!options.verbosity.quiet())
+    print(counts_text(counts) + "\n  " + options.output + "\n",
+          "The table is written, as " + options.output + ".");
   return ExitCode::done;
 }
 
@@ -183,7 +185,8 @@ ExitCode write_batch(const SweepArguments& options, const study::Study& study, c
   write_whole(file, batch_text(sweep_arguments(options, directory), directory.string(), tasks));
   if (!options.verbosity.quiet()) {
     print(labelled("Batch file", file.string() + ", " + std::to_string(tasks) + " tasks") +
-          labelled("Submit it", "sbatch " + file.string() + ", where this command was given"));
+              labelled("Submit it", "sbatch " + file.string() + ", where this command was given"),
+          "The file is written, as " + file.string() + ".");
   }
   return ExitCode::done;
 }
@@ -197,7 +200,9 @@ void show_summary(const SweepArguments& options, const fs::path& directory, cons
   }();
   const fs::path page = directory / "sweep.html";
   write_whole(page, study::summary_page(results, summary));
-  if (!options.verbosity.quiet()) print(summary_text(summary) + "\n" + labelled("Page", page.string()));
+  if (!options.verbosity.quiet())
+    print(summary_text(summary) + "\n" + labelled("Page", page.string()),
+          "The page is written, as " + page.string() + ".");
 }
 
 /// Options that are of no use together, or alone.
@@ -267,7 +272,8 @@ ExitCode sweep_design(const CLI::App& command, const SweepArguments& given) {
     run_options.progress = progress.callback();
     return study::run(study, run_options);
   }();
-  if (!options.verbosity.quiet()) print(run_text(report, directory.string()));
+  if (!options.verbosity.quiet())
+    print(run_text(report, directory.string()), "The rows are written, into " + directory.string() + ".");
   if (report.complete) show_summary(options, directory, interrupt.token());
   return ExitCode::done;
 }

@@ -153,6 +153,39 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "SIGTERM leaves all files of a profile or none, whenever it comes; the next command clears what SIGKILL "
+    "left") {
+  const TempDir place;
+  const std::vector<std::string> arguments = {"profile", shipped("hills/garmisch_hs142"), "-d", "made"};
+  constexpr int kMoments = 12;
+  bool ended = false;
+  for (int moment = 0; moment < kMoments; ++moment) {
+    fs::remove_all(place / "made");
+    RunningProgram running(glissade_program(), arguments, place.path());
+    // Where the files begin is told by their directory.
+    for (int looks = 0; looks < 10'000 && !fs::exists(place / "made"); ++looks)
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 * moment));
+    const int code = running.end_by(moment == 0 ? SIGKILL : SIGTERM);
+    INFO("moment " << moment << ", exit code " << code);
+    if (moment == 0) {
+      if (code == 128 + SIGKILL) CHECK_FALSE(leftovers(place.path()).empty());
+      RunLimits limits;
+      limits.directory = place.path();
+      REQUIRE(glissade_run({"rewrite", shipped("grain_chute"), "-o", "made/other.yaml"}, limits).exit_code ==
+              0);
+      CHECK(leftovers(place.path()).size() <= 8);
+      for (const std::string& name : leftovers(place.path())) CHECK_FALSE(name.starts_with(".glissade-"));
+      continue;
+    }
+    ended = ended || code == 130;
+    const std::vector<std::string> left = leftovers(place.path());
+    CHECK((left.empty() || left.size() == 6));
+  }
+  CHECK(ended);
+}
+
 TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so far") {
   const std::vector<std::string> arguments = {"solve", shipped("ski_jump_inrun_with_limits"), "-v", "--set",
                                               "body.drag=0.002 1/m"};

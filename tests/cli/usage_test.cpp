@@ -93,6 +93,32 @@ TEST_CASE("a full disk behind standard output is an error with exit code 5") {
   CHECK_THAT(outcome.errors, Contains("standard output: writing failed: No space left on device"));
 }
 
+TEST_CASE("files that are written before standard output takes nothing are told of") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  limits.output_to = "/dev/full";
+  const Outcome built = glissade_run({"build", shipped("grain_chute"), "--no-report", "-o", "made"}, limits);
+  CHECK(built.exit_code == 5);
+  CHECK(built.errors ==
+        "glissade: error: standard output: writing failed: No space left on device\n"
+        "      All files are written, into made. Only what was to be printed is lost.\n"
+        "      Try: a disk with space left\n");
+  CHECK(std::filesystem::exists(place / "made/grain_chute.stl"));
+  const Outcome compared = glissade_run({"compare", shipped("grain_chute"), "--csv", "c.csv"}, limits);
+  CHECK(compared.exit_code == 5);
+  CHECK_THAT(compared.errors, Contains("The files that were asked for are written. Only what"));
+}
+
+TEST_CASE("a pipe or device takes no file, by whatever name it goes") {
+  for (const std::string& name : {std::string("/dev/stdout"), std::string("/dev/null")}) {
+    const Outcome outcome = run_program("/bin/sh", {"-c", R"("$0" solve "$1" --csv "$2" | cat)",
+                                                    glissade_program(), shipped("grain_chute"), name});
+    CHECK_THAT(outcome.errors, Contains(name + ": cannot write: not a regular file\n") &&
+                                   Contains("Try: the name of a file"));
+  }
+}
+
 TEST_CASE("a slip in a command or an option is answered with the one that was meant") {
   struct Slip {
     std::vector<std::string> arguments;
@@ -460,6 +486,26 @@ TEST_CASE("profile on a full disk names the file that was asked for, and leaves 
   CHECK_THAT(outcome.errors,
              Contains("out/garmisch_hs142.section.dxf: cannot write") && !Contains(".glissade-"));
   CHECK(place.names().empty());
+}
+
+TEST_CASE("where one of several files cannot be written, none of them is") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  std::filesystem::create_directory(place / "taken.svg");
+  std::filesystem::create_directory(place / "profile.csv");
+  const std::string hill = shipped("hills/garmisch_hs142");
+  const std::string points = std::filesystem::path(hill).parent_path() / "garmisch_survey.csv";
+  const std::vector<std::vector<std::string>> commands = {
+      {"solve", shipped("grain_chute"), "--csv", "a.csv", "--frozen", "none/b.yaml"},
+      {"survey", hill, points, "--offset", "120mm", "--csv", "a.csv", "--svg", "taken.svg"},
+      {"compare", shipped("grain_chute"), "--svg", "a.svg", "--html", "a.html", "--csv", "none/a.csv"},
+      {"init", "points", "--force", "-o", "a.yaml"}};
+  for (const std::vector<std::string>& command : commands) {
+    INFO(command[0]);
+    CHECK(glissade_run(command, limits).exit_code == 5);
+    CHECK(place.names() == std::vector<std::string>{"profile.csv", "taken.svg"});
+  }
 }
 
 TEST_CASE("no file takes the place of the one that standard output goes to") {

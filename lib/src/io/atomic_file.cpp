@@ -3,6 +3,8 @@
 #include "glissade/core/error.hpp"
 #include "glissade/io/unfinished.hpp"
 
+#include "io/replaceable.hpp"
+#include "io/staging_folder.hpp"
 #include "io/system_error.hpp"
 
 #include <algorithm>
@@ -30,37 +32,6 @@ namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18U;
 constexpr mode_t kNewFileMode = 0666;
-constexpr mode_t kPermissionBits = 0777;
-
-/// @return the file that the target means: the target itself or what its symbolic links lead to
-std::filesystem::path without_links(const std::filesystem::path& target) {
-  constexpr int kMostLinks = 40;
-  std::filesystem::path file = target;
-  for (int i = 0; i < kMostLinks; ++i) {
-    std::error_code failure;
-    const std::filesystem::path next = std::filesystem::read_symlink(file, failure);
-    if (failure) return file;
-    file = next.is_absolute() ? next : file.parent_path() / next;
-  }
-  throw system_error(target, "cannot write", ELOOP);
-}
-
-/// @return permissions of the file that is about to be replaced; none if there is no such file
-std::optional<mode_t> replaceable_mode(const std::filesystem::path& target,
-                                       const std::filesystem::path& file) {
-  struct stat status {};
-  if (::stat(file.c_str(), &status) != 0) {
-    if (errno == ENOENT) return std::nullopt;
-    throw system_error(target, "cannot write", errno);
-  }
-  if (S_ISDIR(status.st_mode)) throw system_error(target, "cannot write", EISDIR);
-  if (!S_ISREG(status.st_mode)) {
-    throw FileError({target.string(), "cannot write: not a regular file",
-                     "A device or pipe cannot be replaced in one step.", "the name of a file"});
-  }
-  if (::access(file.c_str(), W_OK) != 0) throw system_error(target, "cannot replace", errno);
-  return status.st_mode & kPermissionBits;
-}
 
 }  // namespace
 
@@ -78,6 +49,7 @@ void AtomicFile::remove_abandoned(const std::filesystem::path& directory) {
     if (is_file && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
     ::close(descriptor);
   }
+  remove_abandoned_folders(place);
 }
 
 namespace {
@@ -161,9 +133,9 @@ struct AtomicFile::State {
 
 AtomicFile::AtomicFile(std::filesystem::path target) : state_(std::make_unique<State>()) {
   state_->target = std::move(target);
-  if (!state_->target.has_filename()) throw system_error(state_->target, "cannot write", EISDIR);
-  state_->file = without_links(state_->target);
-  state_->mode = replaceable_mode(state_->target, state_->file);
+  const Replaceable replaced = replaceable(state_->target);
+  state_->file = replaced.file;
+  state_->mode = replaced.mode;
   state_->buffer.reserve(kBufferSize);
   state_->create_sibling();
 }

@@ -162,13 +162,16 @@ std::vector<TabulatedPoint> faithful_table(const Track& track) {
                        "", ""});
 }
 
-void write(const std::filesystem::path& file, const std::string& text) {
-  write_atomically(file, text);
-}
-
 }  // namespace
 
 void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track) {
+  FileSet files;
+  add_frozen_design(files, file, design, track);
+  files.commit();
+}
+
+void add_frozen_design(FileSet& files, const std::filesystem::path& file, const Design& design,
+                       const Track& track) {
   std::filesystem::path csv = file;
   csv.replace_extension(".csv");
   if (csv == file) {
@@ -185,7 +188,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
     frozen.centerline = as_segments(*clothoids);
   } else {
     require_no_other(csv);
-    write(csv, table_text(faithful_table(track)));
+    files.put(csv, table_text(faithful_table(track)));
     frozen.centerline = as_table(frozen.file.parent_path() / csv.filename());
     if (creeps_in(track.motion)) {
       remark =
@@ -198,7 +201,7 @@ void write_frozen_design(const std::filesystem::path& file, const Design& design
   for (char& letter : note) {
     if (static_cast<unsigned char>(letter) < 0x20U && letter != '\n') letter = ' ';
   }
-  write(file, note + remark + design_text(frozen));
+  files.put(file, note + remark + design_text(frozen));
 }
 
 }  // namespace glissade

@@ -94,7 +94,7 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
       [&](std::size_t i) { steps.enter("writing " + assembly.files[i].name, assembly.files[i].cost); },
       [&](std::size_t i) {
         const PendingFile& file = assembly.files[i];
-        named_as(made[i], directory / file.name, [&] {
+        io::named_as(made[i], directory / file.name, [&] {
           file.write(made[i], context.stop);
           if (file.read_back) file.read_back(made[i], context.stop);
         });
@@ -105,7 +105,7 @@ Build publish(const Design& given, Assembly assembly, const fs::path& directory,
     const std::string name = assembly.stem + kReportEnding;
     steps.enter("writing " + name, assembly.total_cost - assembly.cost);
     const fs::path page = staging.path_for(name);
-    named_as(page, directory / name, [&] {
+    io::named_as(page, directory / name, [&] {
       write_report(page, design,
                    {assembly.track, assembly.section ? &*assembly.section : nullptr, swept, std::move(made),
                     std::move(read_back), context.stop, assembly.fabrication.get()});

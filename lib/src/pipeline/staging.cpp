@@ -3,13 +3,12 @@
 #include "glissade/core/error.hpp"
 #include "glissade/io/atomic_file.hpp"
 
+#include "io/moves.hpp"
 #include "pipeline/owned_files.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <cstddef>
 #include <regex>
 #include <set>
 #include <string>
@@ -17,12 +16,12 @@
 #include <thread>
 #include <utility>
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace glissade::pipeline {
+
+using namespace io;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,35 +31,8 @@ FileError failure(const fs::path& path, const std::string& what, const std::erro
       {path.string(), what + ": " + reason.message(), "", "another directory with -o, or free space"});
 }
 
-/// @return the directories that had to be made, outermost first
-std::vector<fs::path> make_directories(const fs::path& target) {
-  std::vector<fs::path> missing;
-  std::error_code error;
-  for (fs::path path = target; !path.empty() && !fs::exists(path, error); path = path.parent_path()) {
-    if (error) break;
-    missing.push_back(path);
-  }
-  std::reverse(missing.begin(), missing.end());
-  fs::create_directories(target, error);
-  if (error) throw failure(target, "this directory cannot be made", error);
-  return missing;
-}
-
 fs::path without_trailing_slash(const fs::path& path) {
   return path.has_filename() ? path : path.parent_path();
-}
-
-/// @return a descriptor that holds the lock on a directory until it is closed; -1 if another holds it, or the
-///         file system has no locks
-int locked(const fs::path& directory) {
-  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    const int reason = errno;
-    ::close(descriptor);
-    errno = reason;
-    return -1;
-  }
-  return descriptor;
 }
 
 /// One build at a time changes the files of a directory: between another's list and its files those of that other would count
@@ -74,7 +46,7 @@ class Turn {
     std::error_code error;
     const fs::path place = fs::canonical(directory, error);
     for (int i = 0; i < kMostTries && !error; ++i) {
-      descriptor_ = locked(place);
+      descriptor_ = locked_directory(place);
       if (descriptor_ >= 0 || errno != EWOULDBLOCK) return;
       std::this_thread::sleep_for(10ms);
     }
@@ -89,25 +61,6 @@ class Turn {
   int descriptor_ = -1;
 };
 
-/// Removes what killed processes left: directories of the name that Staging gives, and of no other, that nobody
-/// has locked.
-void remove_abandoned(const fs::path& target) {
-  static const std::regex kName(R"(\.glissade-[0-9]+-[0-9]+)");
-  std::error_code error;
-  std::vector<fs::path> candidates;
-  for (auto entry = fs::directory_iterator(target, error); !error && entry != fs::directory_iterator();
-       entry.increment(error)) {
-    if (std::regex_match(entry->path().filename().string(), kName)) candidates.push_back(entry->path());
-  }
-  for (const fs::path& path : candidates) {
-    if (fs::symlink_status(path, error).type() != fs::file_type::directory) continue;
-    const int lock = locked(path);
-    if (lock < 0) continue;
-    fs::remove_all(path, error);
-    ::close(lock);
-  }
-}
-
 /// @return `file` with an ending that no file has
 fs::path name_to_keep(const fs::path& file) {
   fs::path name = file;
@@ -118,67 +71,6 @@ fs::path name_to_keep(const fs::path& file) {
   }
   return name;
 }
-
-/// Moves that can be taken back.
-class Moves {
- public:
-  explicit Moves(fs::path attic) : attic_(std::move(attic)) {}
-  Moves(const Moves&) = delete;
-  Moves& operator=(const Moves&) = delete;
-  ~Moves() {
-    std::error_code ignored;
-    std::for_each(done_.rbegin(), done_.rend(), [&](const Move& move) {
-      if (move.is_new) {
-        fs::remove(move.from, ignored);
-      } else {
-        fs::rename(move.to, move.from, ignored);
-      }
-    });
-    std::for_each(made_.rbegin(), made_.rend(), [&](const fs::path& path) { fs::remove(path, ignored); });
-  }
-
-  void commit() {
-    done_.clear();
-    made_.clear();
-  }
-
-  /// Takes a file out of the way, to be gone with the attic.
-  void remove(const fs::path& file) { move(file, attic_ / std::to_string(done_.size())); }
-
-  void move(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::rename(from, to, error);
-    if (error) throw failure(from, "this file cannot be moved", error);
-    done_.push_back({from, to, false});
-  }
-
-  /// Puts a new file in its place; an old one is replaced without a moment in which there is none.
-  void put(const fs::path& from, const fs::path& place) {
-    std::error_code error;
-    const bool replaces = fs::exists(fs::symlink_status(place));
-    const fs::path old = attic_ / std::to_string(done_.size());
-    if (replaces) {
-      fs::create_hard_link(place, old, error);
-      if (error) fs::copy_file(place, old, error);
-    } else {
-      const std::vector<fs::path> made = make_directories(place.parent_path());
-      made_.insert(made_.end(), made.begin(), made.end());
-    }
-    if (!error) fs::rename(from, place, error);
-    if (error) throw failure(place, "this file cannot be put in its place", error);
-    done_.push_back(replaces ? Move{place, old, false} : Move{place, {}, true});
-  }
-
- private:
-  struct Move {
-    fs::path from;
-    fs::path to;
-    bool is_new;  // there was nothing at `from`
-  };
-  fs::path attic_;
-  std::vector<Move> done_;
-  std::vector<fs::path> made_;  // directories, outermost first
-};
 
 }  // namespace
 
@@ -233,38 +125,14 @@ Staging::Staging(const fs::path& target, std::string owner, const fs::path& desi
   for (const fs::path& path : made_directories_) {
     unfinished_directories_.emplace_back(path, Unfinished::Kind::if_empty);
   }
-  remove_abandoned(target_);
   AtomicFile::remove_abandoned(target_);
-  lock_new_directory();
-}
-
-void Staging::lock_new_directory() {
-  static std::atomic<unsigned> counter{0};
-  constexpr int kMostTries = 100;  // one is lost where another build takes the new directory for abandoned
-  std::error_code error;
-  for (int i = 0; i < kMostTries; ++i) {
-    // A program that ends meanwhile knows of the directory, or waits with it for good.
-    const auto hold = Unfinished::hold();
-    directory_ = target_ / (".glissade-" + std::to_string(::getpid()) + "-" + std::to_string(++counter));
-    const bool made = fs::create_directory(directory_, error);
-    if (error) break;
-    if (!made) continue;
-    lock_ = locked(directory_);
-    // Without locks on this file system nobody takes it for abandoned either.
-    if (fs::exists(directory_, error)) {
-      unfinished_.emplace(directory_);
-      return;
-    }
-    if (lock_ >= 0) ::close(std::exchange(lock_, -1));
-  }
-  if (!error) error = std::make_error_code(std::errc::file_exists);
-  throw failure(target_, "no file can be made in this directory", error);
+  folder_.emplace(target_, error);
+  if (error) throw failure(target_, "no file can be made in this directory", error);
 }
 
 Staging::~Staging() {
+  folder_.reset();
   std::error_code ignored;
-  fs::remove_all(directory_, ignored);
-  if (lock_ >= 0) ::close(lock_);
   // A directory that holds something by now does not go.
   std::for_each(made_directories_.rbegin(), made_directories_.rend(),
                 [&](const fs::path& path) { fs::remove(path, ignored); });
@@ -272,10 +140,9 @@ Staging::~Staging() {
 
 fs::path Staging::path_for(const std::string& name) {
   names_.push_back(name);
-  const fs::path path = directory_ / "new" / name;
-  // Of a program that ends nothing is made again that has been taken away.
-  const auto hold = Unfinished::hold();
-  (void)make_directories(path.parent_path());
+  std::error_code error;
+  fs::path path = folder_->path_for(name, error);
+  if (error) throw failure(path.parent_path(), "this directory cannot be made", error);
   return path;
 }
 
@@ -291,9 +158,8 @@ void Staging::require_of_no_other(const std::vector<std::string>& in_the_way) co
 Published Staging::publish() {
   const Turn turn(target_);
   const auto hold = Unfinished::hold();
-  const fs::path made = directory_ / "new";
-  const fs::path attic = directory_ / "old";
-  (void)make_directories(attic);
+  const fs::path made = folder_->path() / "new";
+  const fs::path attic = folder_->attic();
   const std::string list = OwnedFiles::list_name(owner_);
   named_as(made / list, target_ / list,
            [&] { write_atomically(made / list, OwnedFiles::list_of(made, names_, design_)); });
@@ -306,7 +172,7 @@ Published Staging::publish() {
   }
   require_of_no_other({in_the_way.begin(), in_the_way.end()});
   Published published;
-  Moves moves(attic);
+  Moves moves;
   for (const std::string& name : names_) {
     const fs::path place = target_ / name;
     if (fs::is_directory(place)) {
@@ -317,17 +183,17 @@ Published Staging::publish() {
       published.set_aside.push_back(name_to_keep(place));
       moves.move(place, published.set_aside.back());
     }
-    moves.put(made / name, place);
+    moves.put(made / name, place, attic);
     published.files.push_back(place);
   }
   for (const std::string& name : owned.names()) {
     if (wanted.contains(name) || !owned.unchanged(name)) continue;
     if (stays_ && stays_(target_ / name)) continue;
-    moves.remove(target_ / name);
+    moves.remove(target_ / name, attic);
     published.removed.push_back(target_ / name);
   }
   // Last: where a process is killed on the way, files that the old list does not know count as somebody's own.
-  moves.put(made / list, target_ / list);
+  moves.put(made / list, target_ / list, attic);
   moves.commit();
   return published;
 }

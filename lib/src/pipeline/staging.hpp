@@ -1,7 +1,8 @@
 #pragma once
 
-#include "glissade/core/error.hpp"
 #include "glissade/io/unfinished.hpp"
+
+#include "io/staging_folder.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -26,25 +27,11 @@ struct Published {
 void require_same_design(const std::filesystem::path& target, const std::string& owner,
                          const std::filesystem::path& design);
 
-/// Writes a file that gets its own name later; in what goes wrong it has that name already.
-template <typename Write>
-void named_as(const std::filesystem::path& staged, const std::filesystem::path& file, Write&& write) {
-  try {
-    std::forward<Write>(write)();
-  } catch (const FileError& error) {
-    std::vector<Issue> issues = error.issues();
-    for (Issue& issue : issues) {
-      if (issue.where == staged.string()) issue.where = file.string();
-    }
-    throw FileError(std::move(issues));
-  }
-}
-
 /// A directory inside the target directory in which the files of one owner are made and checked before all of
 /// them move to their places together. What has not been published is gone when this is destroyed, the target
 /// directory too where it was made for this and stayed empty.
 ///
-/// The directory is locked while it is in use; whoever stages next in the same target removes those that nobody
+/// The directory is locked while it is in use; whoever writes next in the same target removes those that nobody
 /// has locked, which killed processes left behind.
 class Staging {
  public:
@@ -70,7 +57,7 @@ class Staging {
   template <typename Write>
   void make(const std::string& name, Write&& write) {
     const std::filesystem::path staged = path_for(name);
-    named_as(staged, target_ / name, [&] { write(staged); });
+    io::named_as(staged, target_ / name, [&] { write(staged); });
   }
 
   /// Moves every file to its place. An earlier file of the same owner is replaced, and removed where the new set
@@ -82,16 +69,13 @@ class Staging {
 
  private:
   void require_of_no_other(const std::vector<std::string>& in_the_way) const;
-  void lock_new_directory();
 
   std::filesystem::path target_;
   std::string owner_;
   std::filesystem::path design_;                         // relative to the target
   std::vector<std::filesystem::path> made_directories_;  // outermost first
-  std::filesystem::path directory_;
-  int lock_ = -1;
-  std::optional<Unfinished> unfinished_;
   std::list<Unfinished> unfinished_directories_;
+  std::optional<io::StagingFolder> folder_;
   std::vector<std::string> names_;
   std::function<bool(const std::filesystem::path&)> stays_;
 };

@@ -14,7 +14,7 @@ namespace glissade {
 /// commit() removes the sibling and leaves the target as it was. Where the target is a symbolic link, the
 /// file it points to is replaced and the link stays. A new file gets the permissions that the umask leaves of
 /// 0666; a replaced one keeps those it had. A target that is write-protected, a directory, a device or a pipe
-/// is refused. Siblings that killed processes left are removed by the next file that is made in their directory.
+/// is refused. What killed processes left is removed by the next file that is made in the directory.
 ///
 /// What it promises holds against exceptions, full disks and broken processes, not against a loss of power:
 /// nothing waits for the disk (no fsync), since every file of Glissade can be made again from its design.
@@ -35,7 +35,8 @@ class AtomicFile {
   void write(const void* bytes, std::size_t count);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
-  /// Removes the siblings that killed processes left in a directory: those that nobody has locked.
+  /// Removes what killed processes left in a directory, siblings and the folders in which files that belong together are made:
+  /// those that nobody has locked.
   static void remove_abandoned(const std::filesystem::path& directory);
 
   /// @throws FileError if flushing, closing or renaming fails; the target is then untouched

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/io/file_set.hpp"
 #include "glissade/pipeline/solve.hpp"
 
 #include <filesystem>
@@ -20,5 +21,9 @@ namespace glissade {
 /// @throws InputError if its ending is .csv, or if a file that is no table of a frozen track stands where its own is to go; FileError
 ///   as AtomicFile
 void write_frozen_design(const std::filesystem::path& file, const Design& design, const Track& track);
+
+/// The same beside other files: design and table take their places with those.
+void add_frozen_design(FileSet& files, const std::filesystem::path& file, const Design& design,
+                       const Track& track);
 
 }  // namespace glissade
