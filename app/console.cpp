@@ -1,7 +1,10 @@
 #include "app/console.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/odd_characters.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -24,9 +27,35 @@ Issue unwritable_output(int error) {
   return issue;
 }
 
+constexpr std::string_view kBold = "\033[1m";
+constexpr std::string_view kRed = "\033[31m";
+constexpr std::string_view kGreen = "\033[32m";
+constexpr std::string_view kPlain = "\033[0m";
+constexpr std::array kEmphases = {kBold, kRed, kGreen, kPlain};
+
+/// What a file, a path or an option brings along is shown, not obeyed; emphasis stays.
+std::string harmless(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const auto own = std::find_if(kEmphases.begin(), kEmphases.end(),
+                                  [&](std::string_view code) { return text.starts_with(code); });
+    if (own != kEmphases.end()) {
+      result += *own;
+      text.remove_prefix(own->size());
+      continue;
+    }
+    const std::size_t next = std::min(text.find('\033', 1), text.size());
+    result += with_controls_shown(text.substr(0, next));
+    text.remove_prefix(next);
+  }
+  return result;
+}
+
 }  // namespace
 
-void print(std::string_view text, std::string_view kept) {
+void print(std::string_view result, std::string_view kept) {
+  // A file or a pipe gets every byte as it is.
+  const std::string text = output_is_terminal() ? harmless(result) : std::string(result);
   errno = 0;
   const bool written =
       std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
@@ -44,9 +73,21 @@ void reserve_standard_streams() {
   }
 }
 
-void print_error(std::string_view text) {
+namespace {
+
+void write_error(const std::string& text) {
   (void)std::fwrite(text.data(), 1, text.size(), stderr);
   (void)std::fflush(stderr);
+}
+
+}  // namespace
+
+void print_error(std::string_view text) {
+  write_error(with_controls_shown(text));
+}
+
+void print_over_line(std::string_view text) {
+  write_error("\r\033[K" + with_controls_shown(text));
 }
 
 void print_problem(const Error& error) {
@@ -73,10 +114,10 @@ std::string emphasised(std::string_view text, Emphasis emphasis) {
     return output_is_terminal() && (refusal == nullptr || *refusal == '\0');
   }();
   if (!coloured) return std::string(text);
-  const char* start = "\033[1m";
-  if (emphasis == Emphasis::good) start = "\033[32m";
-  if (emphasis == Emphasis::bad) start = "\033[31m";
-  return start + std::string(text) + "\033[0m";
+  std::string_view start = kBold;
+  if (emphasis == Emphasis::good) start = kGreen;
+  if (emphasis == Emphasis::bad) start = kRed;
+  return std::string(start).append(text).append(kPlain);
 }
 
 }  // namespace glissade::app

@@ -17,8 +17,11 @@ void print(std::string_view text, std::string_view kept = {});
 /// their number, and with it what is printed. To be called before any file is opened.
 void reserve_standard_streams();
 
-/// Writes to standard error; what cannot be written there is lost.
+/// Writes to standard error; what cannot be written there is lost. Control characters are shown (`<U+001B>`), not obeyed.
 void print_error(std::string_view text);
+
+/// The same, over the line that the cursor is in: standard error is a terminal.
+void print_over_line(std::string_view text);
 
 /// Writes each of an error's issues as "glissade: error: ..." to standard error.
 void print_problem(const Error& error);

@@ -69,8 +69,8 @@ bool out_of_patience(const Asked& asked) {
 /// Ends the program wherever the work is; nothing half written stays.
 [[noreturn]] void end_at_once() {
   discard_unfinished();
-  print_error(std::string(error_is_terminal() ? "\r\033[K" : "") +
-              "glissade: error: interrupted; what was not finished is gone\n");
+  if (error_is_terminal()) print_over_line("");
+  print_error("glissade: error: interrupted; what was not finished is gone\n");
   std::_Exit(static_cast<int>(ExitCode::interrupted));
 }
 

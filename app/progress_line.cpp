@@ -40,7 +40,7 @@ ProgressLine::~ProgressLine() {
     drawer_.request_stop();
     drawer_.join();
   }
-  if (shown_) print_error("\r\033[K");
+  if (shown_) print_over_line("");
 }
 
 Progress ProgressLine::callback() {
@@ -80,7 +80,7 @@ void ProgressLine::keep_drawing(const std::stop_token& stop) {
 
 void ProgressLine::draw(Clock::time_point now) {
   if (now - start_ < kPatience || stage_.empty()) return;
-  print_error("\r\033[K" + stage_ + distance_text(now));
+  print_over_line(stage_ + distance_text(now));
   shown_ = true;
 }
 

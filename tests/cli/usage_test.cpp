@@ -119,6 +119,21 @@ TEST_CASE("a pipe or device takes no file, by whatever name it goes") {
   }
 }
 
+TEST_CASE("control characters of names, paths and cells are shown, not obeyed") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  const Outcome missing = glissade_run({"solve", "\x1b[31mred.yaml"}, limits);
+  CHECK(missing.exit_code == 5);
+  CHECK_THAT(missing.errors, StartsWith("glissade: error: <U+001B>[31mred.yaml: ") && !Contains("\x1b"));
+  put_bytes(place / "points.csv", "name,x,z\nA,0,0\n\x1b[31mB,-1,0.5\n");
+  const Outcome survey = glissade_run({"survey", shipped("hills/garmisch_hs142"), "points.csv"}, limits);
+  CHECK(survey.exit_code == 5);
+  CHECK_THAT(
+      survey.errors,
+      Contains("points.csv:3: column \"name\": there is a control character (U+001B) in \"<U+001B>[31mB\""));
+}
+
 TEST_CASE("a slip in a command or an option is answered with the one that was meant") {
   struct Slip {
     std::vector<std::string> arguments;

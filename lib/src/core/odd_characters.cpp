@@ -167,6 +167,40 @@ std::optional<OddCharacter> odd_character(std::string_view text) {
   return {};
 }
 
+namespace {
+
+bool is_control(const CodePoint& point, std::string_view allowed) {
+  if (point.bytes == 1 && point.value >= 0x80U) return false;  // a byte that is no text
+  const bool control = point.value < 0x20U || (point.value >= 0x7FU && point.value < 0xA0U);
+  return control &&
+         (point.bytes > 1 || allowed.find(static_cast<char>(point.value)) == std::string_view::npos);
+}
+
+}  // namespace
+
+std::optional<OddCharacter> control_character(std::string_view text, std::string_view allowed) {
+  for (std::size_t offset = 0; offset < text.size();) {
+    const CodePoint point = code_point_at(text, offset);
+    if (is_control(point, allowed)) {
+      const char* const name = point.value == '\n' ? "a line break (" : "a control character (";
+      return OddCharacter{offset, name + number_of(point.value) + ")"};
+    }
+    offset += point.bytes;
+  }
+  return {};
+}
+
+std::string with_controls_shown(std::string_view text) {
+  std::string result;
+  for (std::size_t offset = 0; offset < text.size();) {
+    const CodePoint point = code_point_at(text, offset);
+    result += is_control(point, "\n\t") ? "<" + number_of(point.value) + ">"
+                                        : std::string(text.substr(offset, point.bytes));
+    offset += point.bytes;
+  }
+  return result;
+}
+
 std::string with_plain_characters(std::string_view text) {
   return rewritten(text,
                    [](std::uint32_t, const Meaning& meaning, std::string_view) { return meaning.plain; });

@@ -1,6 +1,7 @@
 #include "glissade/centerline/in_run.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/odd_characters.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/design.hpp"
 #include "glissade/design/design_source.hpp"
@@ -60,6 +61,11 @@ std::string read_name(MapReader& top, Findings& findings) {
   if (name.size() > kLongestName) {
     findings.add(value->node->at, value->key_path,
                  {"", "name: longer than " + std::to_string(kLongestName) + " bytes", "", "a shorter name"});
+  }
+  if (const auto control = control_character(name, "")) {
+    findings.add(value->node->at, value->key_path,
+                 {"", "name: there is " + control->name + " in it", "It heads summaries, in one line.",
+                  "a name without it"});
   }
   return name;
 }

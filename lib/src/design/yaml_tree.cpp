@@ -1,5 +1,6 @@
 #include "design/yaml_tree.hpp"
 
+#include "glissade/core/odd_characters.hpp"
 #include "glissade/core/words.hpp"
 
 #include <algorithm>
@@ -134,6 +135,7 @@ class TreeBuilder : public YAML::EventHandler {
     refuse_anchor(mark, anchor);
     refuse_tag(mark, tag);
     refuse_open_quote(mark, tag);
+    refuse_control(mark, value);
     add({Node::Kind::scalar, value, lines_.at_mark(mark), {}, {}});
   }
 
@@ -166,6 +168,17 @@ class TreeBuilder : public YAML::EventHandler {
     throw SyntaxProblem(lines_.at_mark(mark),
                         {"", "the YAML tag " + shown(tag) + " is not used in design files", "",
                          "the value without it, or in quotes if it starts with !"});
+  }
+
+  /// What the text of a file may not have is not to come in by its escape codes either: a terminal would obey it.
+  void refuse_control(const YAML::Mark& mark, const std::string& value) const {
+    // Of a line that ends with a carriage return alone others tell.
+    const bool has_returns = lines_.text().find('\r') != std::string_view::npos;
+    const auto control = control_character(value, has_returns ? "\n\t\r" : "\n\t");
+    if (!control) return;
+    throw SyntaxProblem(lines_.at_mark(mark),
+                        {"", "there is " + control->name + " in " + shown(with_controls_shown(value)),
+                         "A terminal would obey it wherever the text is printed.", "the text without it"});
   }
 
   /// The parser takes a bracket that is not closed in the last line for the beginning of a key.

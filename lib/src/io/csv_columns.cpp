@@ -58,7 +58,14 @@ void CsvColumns::require(std::string_view column, std::string_view hint) const {
 
 std::string CsvColumns::text(std::size_t row, std::string_view column) const {
   const std::size_t index = index_of(column);
-  return index < cells_[row].size() ? cells_[row][index] : std::string();
+  if (index >= cells_[row].size()) return {};
+  const std::string& cell = cells_[row][index];
+  const auto control = control_character(cell);
+  if (!control) return cell;
+  throw FileError({place(row),
+                   "column " + in_quotes(column) + ": there is " + control->name + " in " +
+                       in_quotes(with_controls_shown(cell)),
+                   "A terminal would obey it wherever the text is printed.", "the text without it"});
 }
 
 double CsvColumns::number(std::size_t row, std::string_view column) const {

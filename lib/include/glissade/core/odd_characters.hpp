@@ -20,7 +20,17 @@ struct OddCharacter {
 /// @return the first such character of `text`; none if it has none
 [[nodiscard]] std::optional<OddCharacter> odd_character(std::string_view text);
 
-/// @return `text` with every such character replaced by the plain one that it looks like: a blank, "-", a
+/// @param text     UTF-8
+/// @param allowed  those of ASCII that may be there
+/// @return the first control character of `text`, which a terminal obeys and no reader sees: U+0000 to U+001F, U+007F to U+009F;
+///         none if it has none
+[[nodiscard]] std::optional<OddCharacter> control_character(std::string_view text,
+                                                            std::string_view allowed = "\n\t");
+
+/// @return `text` with every control character but line feeds and tabs as its number: "<U+001B>[31m"
+[[nodiscard]] std::string with_controls_shown(std::string_view text);
+
+/// @return `text` with every odd character replaced by the plain one that it looks like: a blank, "-", a
 ///         quote, a letter, or nothing
 [[nodiscard]] std::string with_plain_characters(std::string_view text);
 
