@@ -416,6 +416,14 @@ TEST_CASE("what a sweep has left is not written over by its own table") {
   const Outcome over_design = glissade_run({"sweep", "--merge", sweep, "-o", design});
   CHECK(over_design.exit_code == 2);
   CHECK_THAT(over_design.errors, Contains("--output: " + design + " has the name of a file that was swept"));
+  const std::string points = (place / "points.csv").string();
+  put_bytes(points, "body.friction_angle\n11 deg\n12 deg\n");
+  const std::string tried = (place / "tried").string();
+  REQUIRE(glissade_run({"sweep", design, "--points", points, "-o", tried}).exit_code == 0);
+  const Outcome over_points = glissade_run({"sweep", "--merge", tried, "-o", points});
+  CHECK(over_points.exit_code == 2);
+  CHECK_THAT(over_points.errors, Contains("--output: " + points + " has the name of a file that was swept"));
+  CHECK(bytes_of(points).starts_with("body.friction_angle\n"));
   CHECK(bytes_of(design) == before);
   CHECK(glissade_run({"sweep", "--merge", sweep, "-o", sweep + "/table.csv"}).exit_code == 0);
 }

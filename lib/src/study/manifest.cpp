@@ -184,6 +184,10 @@ Results Results::open(const fs::path& directory) {
     results.design_ = json.at("design");
     results.files_ = {results.design_};
     for (const Json& profile : json.at("profiles")) results.files_.push_back(profile.at("file"));
+    for (const Json& variation : json.at("variations")) {
+      if (auto table = points_file_of(variation.get<std::string>()))
+        results.files_.push_back(*std::move(table));
+    }
     results.base_ = json.at("set").get<std::vector<std::string>>();
     results.frozen_ = json.at("frozen");
     return results;

@@ -17,6 +17,9 @@
 namespace glissade::study {
 namespace {
 
+constexpr const char* kPointsMark = "points ";
+constexpr const char* kDigestMark = " sha256:";
+
 struct KeyAndRest {
   std::string key;
   std::string_view rest;
@@ -211,8 +214,15 @@ Factor read_points(const std::filesystem::path& file) {
     for (const auto& row : factor.values) values.push_back(row[column]);
     factor.inputs[column] = input_of(factor.inputs[column].key, values);
   }
-  factor.text = "points " + file.filename().string() + " sha256:" + table.digest;
+  factor.text = kPointsMark + file.filename().string() + kDigestMark + table.digest;
   return factor;
+}
+
+std::optional<std::string> points_file_of(std::string_view text) {
+  const std::size_t digest = text.rfind(kDigestMark);
+  const std::size_t name = std::string_view(kPointsMark).size();
+  if (!text.starts_with(kPointsMark) || digest == std::string_view::npos || digest < name) return {};
+  return std::string(text.substr(name, digest - name));
 }
 
 Factor scatter(const std::vector<std::string>& texts, Sampling sampling, std::uint64_t samples,

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +49,10 @@ struct Factor {
 /// @throws FileError if it cannot be read; InputError with the line where a row is not as long as the heading, a cell is
 ///         empty or a key appears twice
 [[nodiscard]] Factor read_points(const std::filesystem::path& file);
+
+/// @param text  of a factor, as a manifest has it
+/// @return the name of the table that it was read from; none of factors of other kinds
+[[nodiscard]] std::optional<std::string> points_file_of(std::string_view text);
 
 /// Values that scatter independently of each other.
 /// @param texts  KEY=DISTRIBUTION each, e.g. "body.friction_angle=normal(17deg,1.5deg)"

@@ -149,7 +149,8 @@ class Results {
   }  ///< whether an input is a number
   [[nodiscard]] const std::vector<std::string>& quantities() const noexcept { return quantities_; }
   [[nodiscard]] const std::string& design() const noexcept { return design_; }  ///< name of its file
-  /// @return names of the files that were studied, as far as the manifest tells: the design's and those that it takes from
+  /// @return names of the files that were studied, as far as the manifest tells: the design's, those that it takes from
+  /// and tables of points
   [[nodiscard]] const std::vector<std::string>& files() const noexcept { return files_; }
   [[nodiscard]] const std::vector<std::string>& base() const noexcept {
     return base_;
