@@ -271,6 +271,21 @@ TEST_CASE("fittings: what cannot be made is refused with place, value, bound and
   PlateOptions away;
   away.inspection = {{20.0, 0.2, 0.12, 8}};
   CHECK(refusal(away).find("inspection|at: an opening at 20 m is not on the track|It is 7.746 m long.") == 0);
+  PlateOptions all;
+  all.split.longest = 2.9;
+  all.inspection = {{0.02, 0.2, 0.12, 8}, {20.0, 0.2, 0.12, 8}, {1.2, 0.2, 0.12, 8}, {1.25, 0.2, 0.12, 8}};
+  for (const char* const told : {"inspection|at: an opening at 20 mm reaches over the end of a unit|",
+                                 "inspection|at: an opening at 20 m is not on the track|",
+                                 "inspection|at: openings at 1.2 m and 1.25 m are too close|"}) {
+    INFO(told);
+    CHECK(refusal(all).find(told) != std::string::npos);
+  }
+  PlateOptions wide;
+  wide.rim.emplace();
+  wide.rim->width = 0.3;
+  CHECK(refusal(wide).find(
+            "rim.width|width: 300 mm is more than the walls are high, 250 mm|The rim would stand "
+            "out farther than the channel is deep.|width: 250 mm or less") != std::string::npos);
   PlateOptions tiles;
   tiles.liner.emplace();
   tiles.liner->tile_width = 40e-3;

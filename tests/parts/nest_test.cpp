@@ -175,7 +175,8 @@ TEST_CASE("what is wrong with a sheet is told, all of it, with its bounds") {
   CHECK(told({3.0, 1.5, 0.0, 0.0}).empty());
   CHECK(told({3.0, 1.5, 0.75, 1.5}) ==
         "split.margin|margin: 750 mm leaves nothing of a sheet that is 1.5 m wide|less than 750 mm\n"
-        "split.spacing|spacing: 1.5 m is no less than the width of the sheet, 1.5 m|spacing: 10 mm\n");
+        "split.spacing|spacing: 1.5 m is no less than the width of the sheet, 1.5 m|a spacing of less than "
+        "1.5 m, or a larger sheet\n");
   CHECK(told({3.0, 1.5, -1e-3, -2e-3}) ==
         "split.margin|margin: -1 mm is negative|margin: 5 mm\n"
         "split.spacing|spacing: -2 mm is negative|spacing: 10 mm\n");

@@ -533,6 +533,12 @@ TEST_CASE("openings: where none is to be had it is refused with place, value, bo
         0);
   options.inspection = {{2.0, 0.2, 0.1, 8}, {2.1, 0.2, 0.1, 8}};
   CHECK(refused(trapezoid, options).find("inspection|at: openings at 2 m and 2.1 m are too close") == 0);
+  // All of it is told at once, of each opening the first.
+  options.inspection = {{9.0, 0.2, 0.1, 8}, {2.0, 0.2, 0.1, 8}, {2.1, 0.2, 0.1, 8}, {-1.0, 0.2, 0.1, 8}};
+  const std::string several = refused(trapezoid, options);
+  CHECK(several.find("inspection|at: an opening at 9 m is not on the track|") == 0);
+  CHECK(several.find("\ninspection|at: openings at 2 m and 2.1 m are too close|") != std::string::npos);
+  CHECK(several.find("\ninspection|at: an opening at -1 m is not on the track|") != std::string::npos);
   // Moved to one arc, a note tells it.
   options.inspection = {{1.2, 0.2, 0.1, 8}, {4.0, 0.2, 0.1, 8}, {5.5, 0.2, 0.1, 8}};
   const WorkshopBuild moved = plates_of(chute(), trapezoid, options);

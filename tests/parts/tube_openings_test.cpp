@@ -213,6 +213,9 @@ TEST_CASE("tube openings: what fits no tube is told with the length, height or p
   CHECK(refused() == "inspection|at: an opening at 4 m is not on the track|It is 3 m long.|at: 1.5 m\n");
   options.inspection = {{1.0, 0.1, 0.1, 6}, {1.02, 0.1, 0.1, 6}};
   CHECK(refused().find("inspection|at: openings at 1 m and 1.02 m are too close|") == 0);
+  options.inspection = {{1.0, 0.1, 0.1, 6}, {1.02, 0.1, 0.1, 6}, {2.0, 0.6, 0.1, 6}};
+  CHECK(refused().find("inspection|at: openings at 1 m and 1.02 m are too close|") == 0);
+  CHECK(refused().find("\ninspection|length: an opening of 600 mm fits no tube|") != std::string::npos);
   options.inspection = {{1.0, 0.1, 0.1, 24}};
   const section::Pipe narrow{0.07, 3e-3};
   CHECK(refusal_of([&] {

@@ -114,7 +114,8 @@ void object_to_rim(const ChannelMeasures& channel, const PlateOptions& options, 
     refusals.add("rim.width",
                  "width: " + length_text(rim.width) + " is more than the walls are high, " +
                      length_text(channel.wall_height),
-                 "The rim would stand out farther than the channel is deep.", "a smaller width");
+                 "The rim would stand out farther than the channel is deep.",
+                 "width: " + length_text(channel.wall_height) + " or less");
   }
 }
 

@@ -513,12 +513,22 @@ std::optional<double> place_of_lid(const Job& job, const Span& unit, double abou
   return best;
 }
 
-/// Lids of two openings lie beside each other.
-void require_apart(const Job& job, const InspectionOptions& opening, double reach, const Span& lid) {
+Issue misplaced(std::string what, std::string why, std::string hint) {
+  return {"inspection", "at: " + std::move(what), std::move(why), std::move(hint)};
+}
+
+bool is_on_track(const Job& job, const InspectionOptions& opening) {
+  return opening.at > 0.0 && opening.at < job.track.length();
+}
+
+/// What is wrong with two openings whose lids do not lie beside each other.
+std::optional<Issue> too_close(const Job& job, const InspectionOptions& opening, double reach,
+                               const Span& lid) {
   constexpr double kBeside = 5e-3;    // [m]
   constexpr double kRounding = 1e-6;  // of a place that is told [m]
   for (const InspectionOptions& other : job.options.inspection) {
-    if (&other == &opening) return;
+    if (&other == &opening) break;
+    if (!is_on_track(job, other)) continue;
     const double other_reach = 0.5 * other.length + lid_lap(other, job.options.shop);
     const double curvature = std::max(job.track.at(opening.at).curvature, job.track.at(other.at).curvature);
     // In a valley lids come together above the floor.
@@ -527,26 +537,62 @@ void require_apart(const Job& job, const InspectionOptions& opening, double reac
     if (std::fabs(other.at - opening.at) >= least - kRounding) continue;
     const double at = opening.at < other.at ? 1e-3 * std::floor(1e3 * (other.at - least) + 1e-6)
                                             : 1e-3 * std::ceil(1e3 * (other.at + least) - 1e-6);
-    refuse("inspection",
-           "at: openings at " + length_text(other.at, 4) + " and " + length_text(opening.at, 4) +
-               " are too close",
-           "With their lids they take " + length_text(least, 3) + " from one's middle to the other's.",
-           (at > reach && at < job.track.length() - reach ? "at: " + length_text(at, 4) + ", or "
-                                                          : std::string()) +
-               "one of them");
+    return misplaced(
+        "openings at " + length_text(other.at, 4) + " and " + length_text(opening.at, 4) + " are too close",
+        "With their lids they take " + length_text(least, 3) + " from one's middle to the other's.",
+        (at > reach && at < job.track.length() - reach ? "at: " + length_text(at, 4) + ", or "
+                                                       : std::string()) +
+            "one of them");
   }
+  return std::nullopt;
+}
+
+/// What is wrong with the place of an opening in a unit that it lies in, at least in part.
+std::optional<Issue> misplaced_in(const Job& job, const Span& unit, const InspectionOptions& opening,
+                                  double reach) {
+  const Span lid = lid_heights(job, opening);
+  if (opening.at < unit.from + reach || opening.at > unit.to - reach ||
+      !lid_keeps_off(job, unit, opening.at, reach, lid)) {
+    const auto place = place_of_lid(job, unit, opening.at, reach, lid);
+    return misplaced("an opening at " + length_text(opening.at, 4) + " reaches over the end of a unit",
+                     "Units end at " + length_text(unit.from, 4) + " and " + length_text(unit.to, 4) +
+                         "; with its lid it is " + length_text(2.0 * reach) + " long.",
+                     place ? "at: " + length_text(*place, 4) : "a smaller length, or longer units");
+  }
+  if (job.track.at(opening.at).curvature * lid.to > 0.9) {
+    return misplaced("the track bends too tightly at " + length_text(opening.at, 4), "", "another at");
+  }
+  return too_close(job, opening, reach, lid);
+}
+
+/// @throws InputError with everything that is wrong with places, of each opening the first
+void require_places(const Fitting& fitting) {
+  const Job& job = fitting.job;
+  std::vector<Issue> issues;
+  for (const InspectionOptions& opening : job.options.inspection) {
+    if (!is_on_track(job, opening)) {
+      issues.push_back(misplaced("an opening at " + length_text(opening.at, 4) + " is not on the track",
+                                 "It is " + length_text(job.track.length(), 4) + " long.",
+                                 "at: " + length_text(0.5 * job.track.length(), 2)));
+      continue;
+    }
+    const double reach = 0.5 * opening.length + lid_lap(opening, job.options.shop);
+    for (const Unit& unit : fitting.units) {
+      if (opening.at + reach <= unit.span.from || opening.at - reach >= unit.span.to) continue;
+      auto issue = misplaced_in(job, unit.span, opening, reach);
+      if (!issue) continue;
+      issues.push_back(*std::move(issue));
+      break;
+    }
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
 }
 
 }  // namespace
 
 void add_openings(const Fitting& fitting) {
   const Job& job = fitting.job;
-  for (const InspectionOptions& opening : job.options.inspection) {
-    if (opening.at > 0.0 && opening.at < job.track.length()) continue;
-    refuse("inspection", "at: an opening at " + length_text(opening.at, 4) + " is not on the track",
-           "It is " + length_text(job.track.length(), 4) + " long.",
-           "at: " + length_text(0.5 * job.track.length(), 2));
-  }
+  require_places(fitting);
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
     const Unit& unit = fitting.units[i];
     std::vector<Opening> openings;
@@ -555,21 +601,7 @@ void add_openings(const Fitting& fitting) {
       const double reach = 0.5 * opening.length + lap;
       if (opening.at + reach <= unit.span.from || opening.at - reach >= unit.span.to) continue;
       const Span lid = lid_heights(job, opening);
-      if (opening.at < unit.span.from + reach || opening.at > unit.span.to - reach ||
-          !lid_keeps_off(job, unit.span, opening.at, reach, lid)) {
-        const auto place = place_of_lid(job, unit.span, opening.at, reach, lid);
-        refuse("inspection",
-               "at: an opening at " + length_text(opening.at, 4) + " reaches over the end of a unit",
-               "Units end at " + length_text(unit.span.from, 4) + " and " + length_text(unit.span.to, 4) +
-                   "; with its lid it is " + length_text(2.0 * reach) + " long.",
-               place ? "at: " + length_text(*place, 4) : "a smaller length, or longer units");
-      }
       const Span heights{lid.from + lap, lid.to - lap};
-      if (job.track.at(opening.at).curvature * (heights.to + lap) > 0.9) {
-        refuse("inspection", "at: the track bends too tightly at " + length_text(opening.at, 4), "",
-               "another at");
-      }
-      require_apart(job, opening, reach, lid);
       openings.push_back({lid, window(job.track, opening.at, 0.5 * opening.length, heights), {}});
       const std::vector<Vec2> bolts = lid_bolts(job.track, opening, heights, lap);
       for (const Vec2 bolt : bolts)

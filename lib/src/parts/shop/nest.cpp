@@ -348,7 +348,8 @@ std::vector<Issue> stock_problems(const NestStock& stock) {
     object(
         "spacing",
         length_text(stock.spacing) + " is no less than the width of the sheet, " + length_text(stock.height),
-        "Parts on a sheet would never lie side by side.", "spacing: 10 mm");
+        "Parts on a sheet would never lie side by side.",
+        "a spacing of less than " + length_text(stock.height) + ", or a larger sheet");
   }
   return issues;
 }

@@ -89,9 +89,19 @@ Span heights_of(const PlateSection& section, const SectionPlate& plate) {
   return heights;
 }
 
-[[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
-  throw InputError({"inspection", std::move(what), std::move(why), std::move(hint)});
-}
+/// What is wrong with openings, of each the first thing, told at once.
+class OpeningIssues {
+ public:
+  void add(std::string what, std::string why, std::string hint) {
+    issues_.push_back({"inspection", std::move(what), std::move(why), std::move(hint)});
+  }
+  void require_none() {
+    if (!issues_.empty()) throw InputError(std::move(issues_));
+  }
+
+ private:
+  std::vector<Issue> issues_;
+};
 
 /// Bolts in the middle of the lid's lap, below and above the opening, each on one arc.
 std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const StripWindow& window,
@@ -225,6 +235,7 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
   const Side side = *side_for_openings(job.section.of_unit(index), job.options);
   const SectionPlate& plate = job.section.plates_of(index)[side.plate];
   const Span room = room_of(job, unit, plate);
+  OpeningIssues issues;
   for (const InspectionOptions& opening : job.options.inspection) {
     const double lap = lid_lap(opening, job.options.shop);
     const double reach = 0.5 * opening.length + lap;
@@ -235,34 +246,38 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
         job.bent() ? off_bends(job, plate, opening, within) : on_one_arc(job, plate, opening, room);
     const std::string where = "at: an opening at " + length_text(job.on_track(opening.at), 4);
     if (!at) {
-      refuse(where + " finds no place in its unit",
-             "Units end at " + length_text(job.on_track(unit.from), 4) + " and " +
-                 length_text(job.on_track(unit.to), 4) + "; it is " + length_text(opening.length) +
-                 " long, its lid " + length_text(2.0 * reach) +
-                 (job.bent()     ? ", and their ends lie off the bends of the "
-                  : job.widens() ? ", and lies on one arc, and where the width does not change, of the "
-                                 : ", and lies on one arc of the ") +
-                 plate.name + ".",
-             "another at, or a smaller length");
+      issues.add(where + " finds no place in its unit",
+                 "Units end at " + length_text(job.on_track(unit.from), 4) + " and " +
+                     length_text(job.on_track(unit.to), 4) + "; it is " + length_text(opening.length) +
+                     " long, its lid " + length_text(2.0 * reach) +
+                     (job.bent()     ? ", and their ends lie off the bends of the "
+                      : job.widens() ? ", and lies on one arc, and where the width does not change, of the "
+                                     : ", and lies on one arc of the ") +
+                     plate.name + ".",
+                 "another at, or a smaller length");
+      continue;
     }
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(*at - opening.at) > reach) {
-      refuse(where + " lies across a change of radius" + (job.widens() ? ", where the width changes," : ",") +
-                 " or the end of a unit",
-             "Openings lie on one arc of the " + plate.name + ", " + length_text(opening.length) +
-                 " long, with lids that lap over by " + length_text(lap) + ".",
-             "at: " + length_text(*at, 4) + ", or a smaller length");
+      issues.add(where + " lies across a change of radius" +
+                     (job.widens() ? ", where the width changes," : ",") + " or the end of a unit",
+                 "Openings lie on one arc of the " + plate.name + ", " + length_text(opening.length) +
+                     " long, with lids that lap over by " + length_text(lap) + ".",
+                 "at: " + length_text(*at, 4) + ", or a smaller length");
+      continue;
     }
     windows.push_back(window_at(side, index, opening, *at, lap));
     if (!clear_of_frames(job, unit, windows.back())) {
-      refuse(where + " lies beside a frame",
-             "Where the track bends tighter than the " + plate.name +
-                 " is high the frames of its unit reach over it.",
-             "another at, or a limit smallest_valley_radius above " +
-                 length_text(std::max(plate.face_from.y, plate.face_to.y), 3));
+      issues.add(where + " lies beside a frame",
+                 "Where the track bends tighter than the " + plate.name +
+                     " is high the frames of its unit reach over it.",
+                 "another at, or a limit smallest_valley_radius above " +
+                     length_text(std::max(plate.face_from.y, plate.face_to.y), 3));
+      continue;
     }
     windows.back().bolts = bolts_of(job, plate, windows.back(), breaks);
   }
+  issues.require_none();
   return windows;
 }
 
@@ -285,24 +300,32 @@ std::string place_apart(double first, double second, double least, const StripJo
 
 void require_openings_on_track(const StripJob& job) {
   const std::vector<InspectionOptions>& all = job.options.inspection;
+  OpeningIssues issues;
+  const auto is_on_track = [&](const InspectionOptions& one) {
+    return one.at > 0.0 && one.at < job.track.length();
+  };
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!(all[i].at > 0.0 && all[i].at < job.track.length())) {
-      refuse("at: an opening at " + length_text(all[i].at, 4) + " is not on the track",
-             "It is " + length_text(job.on_track(job.track.length()), 4) + " long.",
-             "at: " + length_text(0.5 * job.track.length(), 2));
+    if (!is_on_track(all[i])) {
+      issues.add("at: an opening at " + length_text(all[i].at, 4) + " is not on the track",
+                 "It is " + length_text(job.on_track(job.track.length()), 4) + " long.",
+                 "at: " + length_text(0.5 * job.track.length(), 2));
+      continue;
     }
     for (std::size_t k = 0; k < i; ++k) {
+      if (!is_on_track(all[k])) continue;
       // Either may be moved by as much as is allowed.
       const double apart = std::fabs(all[i].at - all[k].at);
       const double laps = lid_lap(all[i], job.options.shop) + lid_lap(all[k], job.options.shop);
       const double least = 2.0 * (0.5 * (all[i].length + all[k].length) + laps);
       if (apart >= least) continue;
-      refuse("at: openings at " + length_text(job.on_track(all[k].at), 4) + " and " +
-                 length_text(job.on_track(all[i].at), 4) + " are too close",
-             "With room to find one arc each they take " + length_text(least) + ".",
-             place_apart(all[k].at, all[i].at, least, job));
+      issues.add("at: openings at " + length_text(job.on_track(all[k].at), 4) + " and " +
+                     length_text(job.on_track(all[i].at), 4) + " are too close",
+                 "With room to find one arc each they take " + length_text(least) + ".",
+                 place_apart(all[k].at, all[i].at, least, job));
+      break;
     }
   }
+  issues.require_none();
 }
 
 void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows, Workshop& workshop) {

@@ -548,16 +548,23 @@ void set_on_tops(const PipeJob& job, const std::vector<GoreUnit>& units, Worksho
 
 // --- openings
 
-/// Cuts openings into tubes, whose lids then keep what is set on them away.
-std::vector<TubeOpening> cut_openings(const PipeJob& job, const Facets& facets, std::vector<GoreUnit>& units,
-                                      std::vector<TubeRoom>& rooms) {
+/// @throws InputError with all openings that are not on the track
+void require_tubes_below(const PipeJob& job) {
+  std::vector<Issue> issues;
   for (const InspectionOptions& opening : job.options.inspection) {
     if (opening.at > 0.0 && opening.at < job.track.length()) continue;
-    throw InputError({"inspection",
+    issues.push_back({"inspection",
                       "at: an opening at " + length_text(opening.at, 4) + " is not on the track",
                       "It is " + length_text(job.track.length(), 4) + " long.",
                       "at: " + length_text(0.5 * job.track.length(), 2)});
   }
+  if (!issues.empty()) throw InputError(std::move(issues));
+}
+
+/// Cuts openings into tubes, whose lids then keep what is set on them away.
+std::vector<TubeOpening> cut_openings(const PipeJob& job, const Facets& facets, std::vector<GoreUnit>& units,
+                                      std::vector<TubeRoom>& rooms) {
+  require_tubes_below(job);
   if (job.options.inspection.empty()) return {};
   const double taken = job.options.flanges.wanted ? job.options.flanges.along() + kAsideOfFrame : 0.0;
   for (GoreUnit& unit : units) {

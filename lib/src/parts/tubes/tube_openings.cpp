@@ -27,10 +27,6 @@ constexpr double kOffMitre = 8e-3;       // of a lid: room for the weld [m]
 constexpr double kPitch = 150e-3;        // of a lid's bolts [m]
 constexpr double kMostHole = 1.0 / 3.0;  // of the tube's radius
 
-[[noreturn]] void refuse(std::string what, std::string why, std::string hint) {
-  throw InputError({"inspection", std::move(what), std::move(why), std::move(hint)});
-}
-
 double outer_of(const TubeGore& tube) {
   return tube.inner_radius + tube.thickness;
 }
@@ -98,19 +94,20 @@ std::optional<Seat> nearest_seat(const InspectionOptions& opening, const std::ve
   return best;
 }
 
-[[noreturn]] void refuse_length(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
-                                const std::optional<TroughSide>& trough, double lap) {
+Issue too_long(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
+               const std::optional<TroughSide>& trough, double lap) {
   double longest = 0.0;
   for (const TubeRoom& tube : tubes) {
     const Span room = lid_room(tube, opening.height + 2.0 * lap, trough);
     longest = std::max(longest, room.to - room.from);
   }
   const double most = 1e-3 * std::floor(1e3 * (longest - 2.0 * lap));
-  refuse("length: an opening of " + length_text(opening.length) + " fits no " + word_of(trough),
-         "With its lid it is " + length_text(opening.length + 2.0 * lap) +
-             " long; between mitres and flanges " + length_text(longest, 3) + " are left at most.",
-         (most > 0.0 ? "length: " + length_text(most) + ", " : std::string()) + "longer " + word_of(trough) +
-             "s (bend), or round: staves");
+  return {"inspection",
+          "length: an opening of " + length_text(opening.length) + " fits no " + word_of(trough),
+          "With its lid it is " + length_text(opening.length + 2.0 * lap) +
+              " long; between mitres and flanges " + length_text(longest, 3) + " are left at most.",
+          (most > 0.0 ? "length: " + length_text(most) + ", " : std::string()) + "longer " + word_of(trough) +
+              "s (bend), or round: staves"};
 }
 
 TubeWindow window_about(const TubeGore& tube, Seat seat, double length, double height) {
@@ -131,15 +128,17 @@ std::vector<TubeHole> bolts_round(const TubeGore& tube, const TubeWindow& window
   return holes;
 }
 
-void require_apart(const std::vector<TubeOpening>& cut) {
+std::optional<Issue> too_close(const std::vector<TubeOpening>& cut) {
   const TubeOpening& last = cut.back();
   for (std::size_t i = 0; i + 1 < cut.size(); ++i) {
     if (cut[i].tube != last.tube || cut[i].lid.from >= last.lid.to || last.lid.from >= cut[i].lid.to)
       continue;
-    refuse("at: openings at " + length_text(cut[i].asked, 4) + " and " + length_text(last.asked, 4) +
-               " are too close",
-           "Each lies with its lid in one tube, and the nearest one is the same.", "one of them");
+    return Issue{"inspection",
+                 "at: openings at " + length_text(cut[i].asked, 4) + " and " + length_text(last.asked, 4) +
+                     " are too close",
+                 "Each lies with its lid in one tube, and the nearest one is the same.", "one of them"};
   }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -149,18 +148,25 @@ std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& opening
                                    const std::optional<TroughSide>& trough, double stretch,
                                    const ShopLeast& shop) {
   std::vector<TubeOpening> cut;
+  std::vector<Issue> issues;  // of each opening the first
   for (const InspectionOptions& opening : openings) {
     const double lap = lid_lap(opening, shop);
     const auto seat = nearest_seat(opening, tubes, trough, stretch, lap);
-    if (!seat) refuse_length(opening, tubes, trough, lap);
+    if (!seat) {
+      issues.push_back(too_long(opening, tubes, trough, lap));
+      continue;
+    }
     const TubeRoom& room = tubes[seat->tube];
     const double at = (room.begins + seat->along) / stretch;
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(at - opening.at) > 0.5 * opening.length + lap) {
-      refuse("at: an opening at " + length_text(opening.at, 4) + " lies across a mitre or a flange",
-             "Openings lie in one " + word_of(trough) + ", " + length_text(opening.length) +
-                 " long, with lids that lap over by " + length_text(lap) + ".",
-             "at: " + length_text(at, 4) + ", or a smaller length");
+      issues.push_back(
+          {"inspection",
+           "at: an opening at " + length_text(opening.at, 4) + " lies across a mitre or a flange",
+           "Openings lie in one " + word_of(trough) + ", " + length_text(opening.length) +
+               " long, with lids that lap over by " + length_text(lap) + ".",
+           "at: " + length_text(at, 4) + ", or a smaller length"});
+      continue;
     }
     TubeGore& tube = *room.body;
     TubeOpening made;
@@ -172,11 +178,16 @@ std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& opening
     made.lid = window_about(tube, *seat, opening.length + 2.0 * lap, opening.height + 2.0 * lap);
     made.bolts = bolts_round(tube, window, 0.5 * clearance_hole(opening.bolt, HoleFit::coarse), lap);
     cut.push_back(made);
-    require_apart(cut);
+    if (auto issue = too_close(cut)) {
+      issues.push_back(*std::move(issue));
+      cut.pop_back();
+      continue;
+    }
     tube.windows.push_back(window);
     const double drilled = 0.5 * clearance_hole(opening.bolt, HoleFit::medium);
     for (const TubeHole& hole : bolts_round(tube, window, drilled, lap)) tube.holes.push_back(hole);
   }
+  if (!issues.empty()) throw InputError(std::move(issues));
   return cut;
 }
 
