@@ -424,12 +424,17 @@ WorkshopBuild across_or_lengthwise(double widest, const PlateOptions& options,
   } catch (const InputError&) {
     constexpr double kLess = 0.8;  // budget: of the sheet's shorter side, from which strips are tried
     if (!options.split.allowed || widest < kLess * options.split.stock().room().y) throw;
-    PlateOptions strips = options;
-    strips.split.lengthwise = true;
-    try {
-      return make(strips);
-    } catch (const InputError&) {
-      // What the first try says is nearer to what was asked for.
+    // As wide as straight ones may be, then as curved ones.
+    for (const double share : {1.0, kCurvedOfSheet}) {
+      PlateOptions strips = options;
+      const double most = share * options.split.stock().room().y;
+      if (options.split.widest && *options.split.widest <= most) continue;  // has been tried
+      strips.split.widest = most;
+      try {
+        return make(strips);
+      } catch (const InputError&) {
+        continue;  // what the first try says is nearer to what was asked for
+      }
     }
     throw;
   }

@@ -76,9 +76,6 @@ struct SplitOptions {
       1;  ///< pieces of a frame, ring or stiffener of plate, at least; of 1 they are whole where the sheet takes them
   double margin = NestStock{}.margin;    ///< of the sheet's edges that stays free of parts [m]; >= 0
   double spacing = NestStock{}.spacing;  ///< between parts on one sheet [m]; >= 0
-  /// Plates that are wider than the sheet's shorter side are strips, too, not those alone that are wider than it is long. No option:
-  /// make_plates() asks for it where units that are short enough to lie across the sheet are not to be had.
-  bool lengthwise = false;
 
   [[nodiscard]] NestStock stock() const { return NestStock::of(sheet, margin, spacing); }
 

@@ -17,7 +17,6 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kOfSheet = 0.95;      // of a sheet that curved strips may take: their pattern needs more
 constexpr double kStep = 1e-3;         // in which seams move off what is taken [m]
 constexpr double kMostStagger = 0.25;  // of a strip
 constexpr double kLeastApart = 50e-3;  // seams of units that are welded end to end [m]
@@ -63,10 +62,10 @@ double widest_of(const std::vector<Span>& strips) {
 
 double widest_strip(double width, bool straight, const SplitOptions& split) {
   if (!split.allowed) return std::numeric_limits<double>::infinity();
-  const double share = straight ? 1.0 : kOfSheet;
+  const double share = straight ? 1.0 : kCurvedOfSheet;
   const auto [longer, shorter] = split.stock().room();
   double most = std::numeric_limits<double>::infinity();
-  if (width > share * (split.lengthwise ? shorter : longer) + kTouch) most = share * shorter;
+  if (width > share * (longer) + kTouch) most = share * shorter;
   return std::min(most, split.widest.value_or(most));
 }
 

@@ -13,6 +13,9 @@ namespace glissade::parts {
 /// Plates that are wider than the sheet is long, or than `split.widest`, are strips side by side, welded edge to edge along the
 /// track.
 
+/// Of a sheet that curved strips may take: their pattern needs more.
+inline constexpr double kCurvedOfSheet = 0.95;  // taste: room for the rise of the arc
+
 /// @return the widest that a strip of a plate may be; infinity of a plate that goes in one piece
 /// @param straight  its pattern is as wide as it is; else it curves, and takes more of a sheet
 [[nodiscard]] double widest_strip(double width, bool straight, const SplitOptions& split);
