@@ -4,6 +4,7 @@
 
 #include "glissade/core/slot.hpp"
 
+#include "parts/plates/plate_joints.hpp"
 #include "support/catch.hpp"
 #include "support/shop_parts.hpp"
 
@@ -70,6 +71,28 @@ TEST_CASE("plate facts: holes are told from where a bend begins, not from its mi
   const ShopPart part = sheet({{{0.15, 0.1}, 8e-3}}, {}, {bend});
   const double half = 0.5 * 8.0 * 0.5 * std::numbers::pi;
   CHECK(least(part, "hole_bend_thicknesses") == Approx((50.0 - 8.0 - half) / 4.0).epsilon(1e-12));
+}
+
+TEST_CASE("plate facts: a part that fits the sheet when it is turned fits it") {
+  // Drawn at 30 deg, 2.9 by 0.3 m takes 2.66 by 1.71 m: the sheet is 3 by 1.5 m.
+  const auto share = [](double angle, double length) {
+    Workshop workshop;
+    workshop.parts = {sheet({})};
+    ArcPath& outline = workshop.parts[0].pattern->region.outline;
+    outline = moved(rectangle({0.0, 0.0}, {length, 0.3}), PlaneMotion::turn(angle));
+    parts::measure_plates(PlateOptions(), workshop);
+    double most = 0.0;
+    for (const ShopMeasurement& one : workshop.measured) {
+      if (one.quantity == "part_sheet_share") most = std::max(most, one.in_units());
+    }
+    CHECK(parts::excess(PlateOptions().split, workshop.parts[0]).has_value() == (length > 2.99));
+    return most;
+  };
+  for (const double angle : {0.0, std::numbers::pi / 6.0, std::numbers::pi / 2.0}) {
+    CAPTURE(angle);
+    CHECK(share(angle, 2.9) == Approx(2.9 / 3.0).epsilon(1e-4));
+    CHECK(share(angle, 3.1) > 1.0);
+  }
 }
 
 TEST_CASE("plate facts: a bar is as wide as it is, however it is drawn") {

@@ -134,10 +134,10 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
     measure_off_bends(part, facts);
     measure_frame_slots(part, facts);
     if (part.bought_in) continue;  // cut from no sheet
-    const PlaneBox box = bounds(part.pattern->region.outline);
-    const auto [shorter, longer] = std::minmax({box.width(), box.height()});
-    facts.of(part, "part_sheet_share", longer, std::max(sheet.x, sheet.y));
-    facts.of(part, "part_sheet_share", shorter, std::min(sheet.x, sheet.y));
+    const Vec2 stock{std::max(sheet.x, sheet.y), std::min(sheet.x, sheet.y)};
+    const Vec2 laid = laid_size(part.pattern->region.outline, stock);
+    facts.of(part, "part_sheet_share", laid.x, stock.x);
+    facts.of(part, "part_sheet_share", laid.y, stock.y);
     // Through the grate it falls however it is drawn.
     facts.of(part, "part_width", core::least_size(part.pattern->region.outline).y);
   }

@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/least_rectangle.hpp"
 #include "parts/plates/calm_joints.hpp"
 #include "parts/plates/channel_strips.hpp"
 #include "parts/plates/corners.hpp"
@@ -252,11 +253,21 @@ std::string length_up(double length) {
 
 }  // namespace
 
+Vec2 laid_size(const ArcPath& outline, Vec2 sheet) {
+  constexpr double kPlay = 1e-5;  // accuracy [m]: by which nests may turn it otherwise
+  const PlaneBox box = bounds(outline);
+  const Vec2 drawn{std::max(box.width(), box.height()), std::min(box.width(), box.height())};
+  const auto share = [&](Vec2 size) { return std::max(size.x / sheet.x, size.y / sheet.y); };
+  if (!(share(drawn) > 1.0)) return drawn;
+  const Vec2 least = core::least_size(outline) + Vec2{kPlay, kPlay};
+  return share(least) <= 1.0 ? least : drawn;
+}
+
 std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part) {
-  const PlaneBox box = bounds(part.pattern->region.outline);
   const NestStock stock = split.stock();
-  const double longer = std::max(box.width(), box.height()) + 2.0 * split.margin;
-  const double shorter = std::min(box.width(), box.height()) + 2.0 * split.margin;
+  const Vec2 laid = laid_size(part.pattern->region.outline, stock.room());
+  const double longer = laid.x + 2.0 * split.margin;
+  const double shorter = laid.y + 2.0 * split.margin;
   const double mass = split.heaviest ? part.mass / *split.heaviest : 0.0;
   if (longer > stock.width || shorter > stock.height) {
     return Excess{"takes " + length_text(longer) + " x " + length_text(shorter) + " with a margin of " +

@@ -22,6 +22,12 @@ struct Excess {
   /// Units so short that it lies across the sheet may make it fit, and until they are its measures across stay as they are.
   bool turns = false;
 };
+
+/// How a pattern lies on a sheet, as nests lay it: along the axes of its drawing or, where that does not fit, of its least rectangle.
+/// @param sheet  longer side first [m]
+/// @return its length and width there, the longer one first [m]
+[[nodiscard]] Vec2 laid_size(const ArcPath& outline, Vec2 sheet);
+
 [[nodiscard]] std::optional<Excess> excess(const SplitOptions& split, const ShopPart& part);
 [[nodiscard]] bool is_too_heavy(const ShopPart& part, const SplitOptions& split);
 /// @param lightest  mass to which it can be had [kg]
