@@ -8,6 +8,7 @@
 #include "app/console.hpp"
 #include "app/gates_text.hpp"
 #include "app/option_value.hpp"
+#include "app/output_files.hpp"
 #include "app/searched_track.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
@@ -17,6 +18,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -178,7 +180,9 @@ ExitCode show_gates(const CLI::App& command, const GatesArguments& options) {
           (options.slopes ? slopes_table(*track.gates) : gates_table(*track.gates)).text() +
           (below.empty() ? "" : "\n  " + below + "\n") + (asked.empty() ? "" : "\n" + asked));
   }
-  if (!options.csv.empty()) write_gates_csv(options.csv, *track.gates);
+  OutputFiles files;
+  files.make(options.csv, [&](const std::filesystem::path& csv) { write_gates_csv(csv, *track.gates); });
+  files.put_in_place();
   require_arrivals(design, *track.gates);
   require_searched_through(design, track);
   return ExitCode::done;

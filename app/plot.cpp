@@ -9,6 +9,7 @@
 #include "glissade/report/ride_figure.hpp"
 
 #include "app/command_line.hpp"
+#include "app/output_files.hpp"
 #include "app/searched_track.hpp"
 #include "app/time_budget.hpp"
 #include "app/track_input.hpp"
@@ -140,11 +141,15 @@ ExitCode plot(const PlotArguments& options) {
     if (!design.name.empty()) figures.back().title = design.name + ": " + figures.back().title;
   }
   const std::string svg = figures_svg(figures);
-  if (png) {
-    write_png(file, svg);
-  } else {
-    write_atomically(file, svg);
-  }
+  OutputFiles files;
+  files.make(options.output, [&](const std::filesystem::path& picture) {
+    if (png) {
+      write_png(picture, svg);
+    } else {
+      write_atomically(picture, svg);
+    }
+  });
+  files.put_in_place();
   require_searched_through(design, track);
   return ExitCode::done;
 }

@@ -6,7 +6,6 @@
 #include "glissade/core/units.hpp"
 #include "glissade/core/words.hpp"
 #include "glissade/design/write.hpp"
-#include "glissade/io/atomic_file.hpp"
 #include "glissade/pipeline/json.hpp"
 
 #include "app/command_line.hpp"
@@ -14,6 +13,7 @@
 #include "app/interrupt.hpp"
 #include "app/limits_text.hpp"
 #include "app/option_value.hpp"
+#include "app/output_files.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
@@ -179,11 +179,11 @@ void write_design(const RedesignArguments& options, const Design& design, const 
   Design made = moved_to(redesigned(design, found, !options.letters), options.output);
   const std::string of = design.name.empty() ? std::string("an in-run") : design.name;
   made.name = of + ", redesigned";
-  AtomicFile target(options.output);
-  target.write("# " + of + " for the same take-off speed within the rules, " +
-               (options.letters ? "by its letters" : "the shape that a search found") + ".\n" +
-               design_text(made));
-  target.commit();
+  OutputFiles files;
+  files.set().put(options.output, "# " + of + " for the same take-off speed within the rules, " +
+                                      (options.letters ? "by its letters" : "the shape that a search found") +
+                                      ".\n" + design_text(made));
+  files.put_in_place();
 }
 
 ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options) {

@@ -1,9 +1,9 @@
 #include "glissade/design/write.hpp"
-#include "glissade/io/atomic_file.hpp"
 
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/new_file.hpp"
+#include "app/output_files.hpp"
 #include "app/track_input.hpp"
 #include "app/usage_problem.hpp"
 
@@ -45,9 +45,9 @@ ExitCode rewrite(const CLI::App& command, const RewriteArguments& options) {
     return ExitCode::done;
   }
   if (!options.force) require_new(options.output);
-  AtomicFile file(options.output);
-  file.write(design_text(moved_to(design, options.output)));
-  file.commit();
+  OutputFiles files;
+  files.set().put(options.output, design_text(moved_to(design, options.output)));
+  files.put_in_place();
   return ExitCode::done;
 }
 

@@ -9,6 +9,7 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
+#include "app/output_files.hpp"
 #include "app/progress_line.hpp"
 #include "app/rules_text.hpp"
 #include "app/searched_track.hpp"
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -127,7 +129,12 @@ ExitCode judge_design(const RulesArguments& options) {
                       "rules: {sets: [...]} in it; 'glissade rules' lists the sets"});
   }
   const Verdicts verdicts = judged(design, options);
-  if (!options.csv.empty()) write_verdicts_csv(options.csv, verdicts.rules);
+  {
+    OutputFiles files;
+    files.make(options.csv,
+               [&](const std::filesystem::path& csv) { write_verdicts_csv(csv, verdicts.rules); });
+    files.put_in_place();
+  }
   const std::string kept = options.csv.empty() ? "" : "The table is written, as " + options.csv + ".";
   if (options.json) {
     print(verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr),

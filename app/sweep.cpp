@@ -6,6 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
+#include "app/output_files.hpp"
 #include "app/progress_line.hpp"
 #include "app/sweep_text.hpp"
 #include "app/table.hpp"
@@ -182,7 +183,9 @@ ExitCode write_batch(const SweepArguments& options, const study::Study& study, c
   MadeDirectories made;  // gone where the file cannot be written
   made.make(directory);
   const fs::path file = directory / "sweep.sbatch";
-  write_whole(file, batch_text(sweep_arguments(options, directory), directory.string(), tasks));
+  OutputFiles files;
+  files.set().put(file, batch_text(sweep_arguments(options, directory), directory.string(), tasks));
+  files.put_in_place();
   if (!options.verbosity.quiet()) {
     print(labelled("Batch file", file.string() + ", " + std::to_string(tasks) + " tasks") +
               labelled("Submit it", "sbatch " + file.string() + ", where this command was given"),

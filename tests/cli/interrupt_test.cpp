@@ -186,6 +186,22 @@ TEST_CASE(
   CHECK(ended);
 }
 
+TEST_CASE("SIGTERM while a picture is drawn leaves it whole, or nothing") {
+  const TempDir place;
+  for (int turn = 0; turn < 4; ++turn) {
+    RunningProgram running(glissade_program(), {"plot", shipped("grain_chute"), "-o", "p.png"}, place.path());
+    // output, errors, and what the picture is made in, or the picture.
+    for (int looks = 0; looks < 10'000 && place.names().size() < 3; ++looks)
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    const int code = running.end_by(SIGTERM);
+    INFO("exit code " << code);
+    CHECK((code == 0 || code == 130 || code == 128 + SIGTERM));  // the last once the picture is there
+    const std::vector<std::string> left = leftovers(place.path());
+    CHECK((left.empty() || left == std::vector<std::string>{"p.png"}));
+    fs::remove(place / "p.png");
+  }
+}
+
 TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so far") {
   const std::vector<std::string> arguments = {"solve", shipped("ski_jump_inrun_with_limits"), "-v", "--set",
                                               "body.drag=0.002 1/m"};
