@@ -162,6 +162,35 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "what counts time and speed finds the crest that is flown over at the start at every lowest slope "
+    "angle") {
+  Problem problem;
+  problem.endpoints = {2.536376743288022, 2.2714783524566178};
+  problem.body.friction = Friction::from_coefficient(0.18837337158601217);
+  problem.body.friction_changes = {{2.5075428790483816, Friction::from_coefficient(0.24963703812811283)}};
+  problem.body.entry_speed = 1.0048550982584397;
+  Limits& limits = problem.limits;
+  limits.slope_angle.highest = 51.524818045490896 * kDegree;
+  limits.exit_slope_angle.highest = 34.906882878119681 * kDegree;
+  limits.highest_normal_load = 15.569527442238039;
+  limits.exit_speed = {5.7549543341331493, 5.9335365006578016};
+  limits.lead_out = 0.21346038682242977;
+  problem.objective.kind = ObjectiveKind::blend;
+  problem.objective.exit_speed_weight = 0.028035541784235469;
+  double tighter = HUGE_VAL;
+  for (const double lowest : {34.303925, 34.27, 34.06}) {
+    limits.slope_angle.lowest = lowest * kDegree;
+    const Optimum optimum = optimize(problem);
+    CAPTURE(lowest, optimum.report.brief());
+    REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+    const double blend =
+        optimum.report.travel_time - problem.objective.exit_speed_weight * optimum.report.exit_speed;
+    CHECK(blend <= tighter);
+    tighter = blend;
+  }
+}
+
 TEST_CASE("a bound that is said to be enough leads to an optimum when it is put in") {
   std::vector<std::pair<int, int>> all{{7, 207}};
   if (testing::thorough()) all.insert(all.end(), {{8, 254}, {8, 101}});

@@ -103,6 +103,26 @@ TEST_CASE("what follows a load between the knots of a bend goes along with it") 
   }
 }
 
+TEST_CASE("a corner with which a bend begins goes along whole, however narrow it is") {
+  constexpr double kHalf = 2e-5;
+  constexpr double kTurn = 0.5;
+  Mesh mesh;
+  mesh.knots = {0.0, 0.1, 0.2, 0.3, 0.4, 0.4 + kHalf, 0.4 + 2.0 * kHalf, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
+  mesh.core_length = kLength;
+  Found found;
+  found.track = std::make_shared<const Transcription>(std::move(mesh));
+  found.z = {kSlope, 0.0, 0.0, 0.0, 0.0, 0.0, kTurn / kHalf, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kLength};
+  const GuessCurve known = glissade::optimizer::curve_of(*found.track, found.z);
+  REQUIRE(std::fabs(known.slope_angle(0.5) - kSlope) > 0.9 * kTurn);
+  for (const double share : {0.5, 0.025, -0.025, -0.5}) {
+    const double by = share > 0.0 ? share * (kBehind.to - kBehind.from) : share * (kBefore.to - kBefore.from);
+    CAPTURE(share, by);
+    const GuessCurve curve = curve_of(with_shifted_bend(found, kBefore, kBehind, share));
+    for (const double at : {0.39, 0.41, 0.5, 0.58})
+      CHECK_THAT(curve.slope_angle(at + by), Catch::Matchers::WithinAbs(known.slope_angle(at), 1e-6));
+  }
+}
+
 TEST_CASE("a bend between stretches that begin or end the track changes places with them, too") {
   const Found found = wave();
   for (const auto& [before, behind, share] :

@@ -191,11 +191,15 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
   constexpr double kDoubtful = 0.05;  // taste: slower by such a share than without limits
   std::vector<GuessCurve> more;
   // Of a track that need not be fast, but lead to speed, any detour may be the better one.
-  if (got_lost || problem.speed_weight != 0.0) more.assign(curves.begin() + 1, curves.end());
-  if (!is_travel_time(problem)) return more;
+  const bool counts_speed = problem.speed_weight != 0.0;
+  if (got_lost || counts_speed) more.assign(curves.begin() + 1, curves.end());
+  if (!counts_speed && !is_travel_time(problem)) return more;
   if (more.empty() && first.objective > straight_time(problem)) more.assign(curves.begin() + 1, curves.end());
   const std::optional<FlyingStart> flying = flying_start(problem);
-  if (flying && first.objective > (1.0 + kDoubtful) * flying->travel_time) more.push_back(flying->curve);
+  // A crest at the start, flown over, is in what counts speed as well.
+  const bool is_doubted =
+      flying && (counts_speed || first.objective > (1.0 + kDoubtful) * flying->travel_time);
+  if (is_doubted) more.push_back(flying->curve);
   return more;
 }
 
@@ -539,12 +543,7 @@ void Searcher::settle(Candidate& candidate, Found found) {
   if (!found.stopped) found = bent_at_finish(problem, std::move(found));
   if (!found.stopped) found = halved(problem, std::move(found));
   std::optional<Found> moved;
-  if (is_optimum(found) && !is_smooth(problem)) {
-    found = with_tight_corners(problem, with_short_ramps(problem, std::move(found)));
-    MovedKnots moves = with_moved_knots(problem, found, options_.tolerance, control_);
-    moved = std::move(moves.found);
-    moves_promise_ = moves.promised / std::fabs(found.objective);
-  }
+  if (is_optimum(found) && !is_smooth(problem)) moved = with_jumps_at_rest(problem, found);
   const auto mend_on = [&](Candidate& end_of, Found end) {
     if (!end.stopped) end = laid_anew(problem, std::move(end));
     end_of.rough_found = end;
@@ -570,6 +569,43 @@ void Searcher::settle(Candidate& candidate, Found found) {
   if (takes) candidate = std::move(other);
   if (!is_good) candidate.promising = std::move(moved);
   candidate.stopped = stopped;
+}
+
+std::optional<Found> Searcher::with_jumps_at_rest(const ScaledProblem& problem, Found& found) {
+  constexpr int kMostRounds = 4;         // budget
+  constexpr int kMostEvaluations = 500;  // budget: a sixth of what a hard search takes
+  constexpr double kFar = 1e-4;   // taste: of the objective; jumps that win less lie on a mesh that fits them
+  constexpr double kPays = 1e-5;  // accuracy: ten times that of a time
+  const auto move = [&] {
+    found = with_tight_corners(problem, with_short_ramps(problem, std::move(found)));
+    MovedKnots moves = with_moved_knots(problem, found, options_.tolerance, control_);
+    moves_promise_ = moves.promised / std::fabs(found.objective);
+    return std::move(moves.found);
+  };
+  std::optional<Found> moved = move();
+  const int begun = control_.evaluations;
+  double before = found.objective;
+  for (int round = 0; round < kMostRounds && moved; ++round) {
+    if (control_.stop() || control_.evaluations - begun > kMostEvaluations) break;
+    if (!(before - moved->objective > (round == 0 ? kFar : kPays) * std::fabs(before))) break;
+    before = moved->objective;
+    // Where jumps lie elsewhere other pieces are too long, and what they win may be taken again between stations.
+    Found next = halved(problem, held_between(problem, followed(problem, *moved)));
+    if (!is_optimum(next)) break;
+    const double promised = moves_promise_;
+    std::swap(found, next);
+    std::optional<Found> again = move();
+    if (again && again->objective < before) {
+      moved = std::move(again);
+    } else if (found.objective < before) {
+      moved = found;
+    } else {
+      moves_promise_ = promised;
+      found = std::move(next);
+      break;
+    }
+  }
+  return moved;
 }
 
 Found Searcher::held_between(const ScaledProblem& problem, Found found) {

@@ -172,6 +172,9 @@ class Searcher {
   [[nodiscard]] Found bent_at_finish(const ScaledProblem& problem, Found found);
   /// The same with shorter ramps for jumps of the curvature, where that is better.
   [[nodiscard]] Found with_short_ramps(const ScaledProblem& problem, Found found);
+  /// The same with jumps of the curvature where they belong, in rounds. @return none where they are there
+  /// @param found  with tighter corners and shorter ramps afterwards
+  [[nodiscard]] std::optional<Found> with_jumps_at_rest(const ScaledProblem& problem, Found& found);
   /// The same with corners ever tighter where no radius is asked for, as long as that pays: how tight they are would be up to the mesh.
   [[nodiscard]] Found with_tight_corners(const ScaledProblem& problem, Found found);
   /// Pieces are halved where a finer mesh has much left to win.

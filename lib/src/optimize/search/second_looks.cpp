@@ -208,16 +208,19 @@ Candidate Searcher::with_shifted_bends(Candidate best) {
 }
 
 std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const Found& known) {
-  constexpr double kShares[] = {0.4, 0.1, 0.025};  // taste: of the stretch that a bend goes into
-  constexpr int kMostSteps = 6;                    // budget
-  constexpr double kPays = 1e-6;                   // accuracy: that of a time
+  constexpr double kShares[] = {0.4, 0.1, 0.025, 0.00625};  // taste: of the stretch that a bend goes into
+  constexpr int kMostSteps = 6;                             // budget
+  constexpr double kPays = 1e-6;                            // accuracy: that of a time
+  constexpr int kMostEvaluations = 6000;                    // budget: twice what a hard search takes
   begin_margins(problem);
+  const int begun = control_.evaluations;
+  const auto is_spent = [&] { return control_.stop() || control_.evaluations - begun > kMostEvaluations; };
   // What is gone too fast between stations would be won by bends that put stations elsewhere.
   Found best = held_between(problem, known);
   std::vector<Vector> tried;  // the same beginnings come back where stretches are short
   const auto wins = [&](std::size_t bend, double share) {
     const std::vector<Span> stretches = stretches_at_cap(problem, best);
-    if (bend + 1 >= stretches.size() || control_.stop()) return false;
+    if (bend + 1 >= stretches.size() || is_spent()) return false;
     const MeshTrack begun_with = with_shifted_bend(best, stretches[bend], stretches[bend + 1], share);
     if (std::find(tried.begin(), tried.end(), begun_with.mesh.knots) != tried.end()) return false;
     tried.push_back(begun_with.mesh.knots);

@@ -7,6 +7,30 @@
 namespace glissade::optimizer {
 namespace {
 
+// Curvature may jump where parts meet: knots nearer to that are left out.
+constexpr double kBeside = 0.2 * kPair;  // taste
+
+/// Whether the track turns there by much within less than is left out where parts meet: where no radius is asked for bends
+/// begin and end with corners.
+bool has_corner_at(const Found& found, double place) {
+  constexpr double kCorner = 0.05;  // taste: [rad]
+  const Vector& knots = found.track->mesh().knots;
+  const Layout& layout = found.track->layout();
+  double turn = 0.0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const double width = knots[i + 1] - knots[i];
+    const bool is_near = knots[i] < place + 2.0 * kBeside && knots[i + 1] > place - 2.0 * kBeside;
+    if (is_near && width < kBeside)
+      turn += 0.5 * width * (found.z[layout.turn(i)] + found.z[layout.turn(i + 1)]);
+  }
+  return std::fabs(turn) > kCorner;
+}
+
+/// Where parts meet beside a corner. @return from the end of the stretch that it ends
+double beside_corner(Span stretch) {
+  return std::min(kPair, 0.25 * (stretch.to - stretch.from));
+}
+
 /// Puts parts of a track one behind the other: the same curvature in another order.
 class Assembly {
  public:
@@ -21,7 +45,6 @@ class Assembly {
   }
 
   void append(Span part) {
-    constexpr double kBeside = 0.2 * kPair;  // taste: curvature may jump where parts meet
     if (!(part.to - part.from > 2.0 * kBeside)) return;
     const double by = at_ - part.from;
     const double first = at_ == 0.0 ? part.from : part.from + kBeside;
@@ -107,8 +130,8 @@ std::vector<Span> stretches_at_cap(const ScaledProblem& problem, const Found& fo
 }
 
 MeshTrack with_shifted_bend(const Found& found, Span before, Span behind, double share) {
-  const double from = before.to;
-  const double to = behind.from;
+  const double from = before.to - (has_corner_at(found, before.to) ? beside_corner(before) : 0.0);
+  const double to = behind.from + (has_corner_at(found, behind.from) ? beside_corner(behind) : 0.0);
   Assembly track(found);
   if (share > 0.0) {
     const double part = share * (behind.to - behind.from);
