@@ -135,8 +135,12 @@ class Searcher {
                                                    const std::vector<std::size_t>& caps);
   /// On their finest meshes, the best one first.
   [[nodiscard]] std::vector<Found> tracks_with_hooks(const ScaledProblem& problem);
+  /// @param shares  of the stretch that a bend goes into, one after the other
+  [[nodiscard]] Candidate with_shifted_bends(Candidate best, const Vector& shares);
   /// The best of the tracks with a bend elsewhere, and so on from there. @return none where none is better
-  [[nodiscard]] std::optional<Found> bends_shifted(const ScaledProblem& problem, const Found& known);
+  /// @param shares  as above
+  [[nodiscard]] std::optional<Found> bends_shifted(const ScaledProblem& problem, const Found& known,
+                                                   const Vector& shares);
   /// @return whether a search on a mesh ended in a better track than the best one, which it is then
   bool ends_better(const Mesh& mesh, const Vector& z, Candidate& best);
   /// Whether a track is plainly behind the one to beat, whatever finer meshes win.

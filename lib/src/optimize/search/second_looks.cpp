@@ -185,6 +185,12 @@ Candidate Searcher::from_hooks(Candidate best) {
 }
 
 Candidate Searcher::with_shifted_bends(Candidate best) {
+  // Of the stretch that a bend goes into. What the widest ones led to is an answer before narrower ones change it.
+  best = with_shifted_bends(std::move(best), {0.4, 0.1, 0.025});  // taste
+  return with_shifted_bends(std::move(best), {0.00625});          // taste: the next of them
+}
+
+Candidate Searcher::with_shifted_bends(Candidate best, const Vector& shares) {
   constexpr int kMostRounds = 3;  // budget
   constexpr double kPays = 1e-5;  // accuracy: ten times that of a time
   if (!best.kept || best.stopped) return best;
@@ -193,7 +199,7 @@ Candidate Searcher::with_shifted_bends(Candidate best) {
   for (int round = 0; round < kMostRounds; ++round) {
     const Found& from = shifted ? *shifted : begun_with(best);
     const double before = from.objective;
-    std::optional<Found> next = bends_shifted(*best.rough, from);
+    std::optional<Found> next = bends_shifted(*best.rough, from, shares);
     if (!next) break;
     shifted = std::move(next);
     if (before - shifted->objective < kPays * std::fabs(before)) break;
@@ -207,11 +213,11 @@ Candidate Searcher::with_shifted_bends(Candidate best) {
   return best;
 }
 
-std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const Found& known) {
-  constexpr double kShares[] = {0.4, 0.1, 0.025, 0.00625};  // taste: of the stretch that a bend goes into
-  constexpr int kMostSteps = 6;                             // budget
-  constexpr double kPays = 1e-6;                            // accuracy: that of a time
-  constexpr int kMostEvaluations = 6000;                    // budget: twice what a hard search takes
+std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const Found& known,
+                                             const Vector& shares) {
+  constexpr int kMostSteps = 6;           // budget
+  constexpr double kPays = 1e-6;          // accuracy: that of a time
+  constexpr int kMostEvaluations = 6000;  // budget: twice what a hard search takes
   begin_margins(problem);
   const int begun = control_.evaluations;
   const auto is_spent = [&] { return control_.stop() || control_.evaluations - begun > kMostEvaluations; };
@@ -242,7 +248,7 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
   };
   bool won = false;
   for (std::size_t bend = 0; bend + 1 < stretches_at_cap(problem, best).size(); ++bend) {
-    for (const double share : kShares) {
+    for (const double share : shares) {
       int steps = 0;
       for (const double way : {share, -share}) {
         while (steps < kMostSteps && wins(bend, way)) ++steps;
