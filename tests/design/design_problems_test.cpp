@@ -154,6 +154,15 @@ TEST_CASE("one value under the key of a list of frictions is told its own key fi
   CHECK_THAT(problems_of_friction("{low: 0.2, nominal: 0.3, high: 0.4}"),
              Contains("friction is a group of keys, not a list") &&
                  Contains("Try: friction_coefficient: {low: 0.2, nominal: 0.3, high: 0.4}" + list));
+  // Keys that a range does not have are not given back as advice.
+  CHECK_THAT(problems_of_friction("{from: 0.16, to: 0.08}"),
+             Contains("Try: friction_coefficient: {low: 0.08, nominal: 0.12, high: 0.16}" + list));
+  CHECK_THAT(problems_of_friction("{least: 4 deg, usual: 5 deg, most: 9 deg}"),
+             Contains("Try: friction_angle: {low: 4 deg, nominal: 5 deg, high: 9 deg}" + list));
+  CHECK_THAT(problems_of_friction("{low: 4, high: 9}"),
+             Contains("Try: friction_angle: {low: 4 deg, nominal: 6.5 deg, high: 9 deg}" + list));
+  CHECK_THAT(problems_of_friction("{value: 0.3}"), Contains("Try: friction_coefficient: 0.3" + list));
+  CHECK_THAT(problems_of_friction("{from: 0, angle: 3}"), Contains("Try: [{from: 0 m, angle: 3 deg}"));
   CHECK_THAT(problems_of_friction("much"), Contains("Try: [{from: 0 m, angle: 3 deg}"));
 }
 

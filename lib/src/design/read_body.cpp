@@ -152,12 +152,36 @@ std::optional<double> read_as(const Node& node, Dimension dimension) {
   }
 }
 
+/// A range of friction with the keys that it has, whatever those are that were written: "{low: 0.08, nominal: 0.12, high: 0.16}".
+/// @pre it has values, and each is one of the dimension
+std::string range_meant(const Node& node, Dimension dimension, const std::string& unit) {
+  const auto value_of = [&](const Entry& entry) { return *read_as(entry.value, dimension); };
+  const auto [low, high] =
+      std::minmax_element(node.entries.begin(), node.entries.end(),
+                          [&](const Entry& a, const Entry& b) { return value_of(a) < value_of(b); });
+  const auto between = std::find_if(node.entries.begin(), node.entries.end(), [&](const Entry& entry) {
+    return entry.key == "nominal" || (&entry != &*low && &entry != &*high);
+  });
+  const double middle = 0.5 * (value_of(*low) + value_of(*high));
+  const bool is_angle = dimension == Dimension::angle;
+  const std::string nominal = between != node.entries.end() ? between->value.scalar + unit
+                              : is_angle                    ? quantity_text(middle, dimension)
+                                                            : rounded_text(middle, 4) + unit;
+  return "{low: " + low->value.scalar + unit + ", nominal: " + nominal + ", high: " + high->value.scalar +
+         unit + "}";
+}
+
 /// A friction for the whole track that was given under the key of a list, as its own key has it: "friction_coefficient: 0.3".
 /// Empty where it is none.
 std::string friction_meant(const Node& node) {
   // Larger numbers without a unit are degrees that nobody wrote.
   constexpr double kLargestCoefficient = 2.0;  // taste
   const bool range = node.kind == Node::Kind::map;
+  // One of the list's own items, without the list.
+  const bool is_item = std::any_of(node.entries.begin(), node.entries.end(), [](const Entry& entry) {
+    return entry.key == "angle" || entry.key == "coefficient";
+  });
+  if (is_item) return {};
   std::vector<const Node*> values;
   if (!range) values.push_back(&node);
   for (const Entry& entry : node.entries) values.push_back(&entry.value);
@@ -171,13 +195,9 @@ std::string friction_meant(const Node& node) {
                               return *read_as(*one, Dimension::number) <= kLargestCoefficient;
                             });
   const std::string unit = numbers && !coefficients ? " deg" : "";
-  std::string shown = node.scalar + unit;
-  if (range) {
-    shown.clear();
-    for (const Entry& entry : node.entries)
-      shown += (shown.empty() ? "{" : ", ") + entry.key + ": " + entry.value.scalar + unit;
-    shown += "}";
-  }
+  const std::string shown = node.entries.size() > 1
+                                ? range_meant(node, numbers ? Dimension::number : Dimension::angle, unit)
+                                : values.front()->scalar + unit;
   return (coefficients ? "friction_coefficient: " : "friction_angle: ") + shown;
 }
 
