@@ -196,10 +196,9 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
   if (!counts_speed && !is_travel_time(problem)) return more;
   if (more.empty() && first.objective > straight_time(problem)) more.assign(curves.begin() + 1, curves.end());
   const std::optional<FlyingStart> flying = flying_start(problem);
-  // A crest at the start, flown over, is in what counts speed as well.
-  const bool is_doubted =
-      flying && (counts_speed || first.objective > (1.0 + kDoubtful) * flying->travel_time);
-  if (is_doubted) more.push_back(flying->curve);
+  // Where exit speed counts travel times tell nothing; the crest that is flown over at the start may pay there, too.
+  const bool may_win = flying && (counts_speed || first.objective > (1.0 + kDoubtful) * flying->travel_time);
+  if (may_win) more.push_back(flying->curve);
   return more;
 }
 

@@ -65,7 +65,7 @@ double widest_strip(double width, bool straight, const SplitOptions& split) {
   const double share = straight ? 1.0 : kCurvedOfSheet;
   const auto [longer, shorter] = split.stock().room();
   double most = std::numeric_limits<double>::infinity();
-  if (width > share * (longer) + kTouch) most = share * shorter;
+  if (width > share * longer + kTouch) most = share * shorter;
   return std::min(most, split.widest.value_or(most));
 }
 
