@@ -146,7 +146,6 @@ std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vec
 std::optional<MeshTrack> with_tighter_corners(const Transcription& track, const Vector& z) {
   constexpr double kPart = 0.25;      // taste: as the crest's
   constexpr double kTightest = 2e-5;  // taste: of the core, ten times a joint
-  constexpr double kCorner = 0.05;    // taste: [rad] that a piece turns by
   const Layout& layout = track.layout();
   MeshTrack result{track.mesh(), z};
   Vector& knots = result.mesh.knots;

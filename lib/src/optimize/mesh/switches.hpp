@@ -11,6 +11,9 @@ namespace glissade::optimizer {
 /// place to be met.
 inline constexpr double kPair = 1e-3;  // taste
 
+/// What turns by more within a piece or a few as short as those of a jump is a corner [rad].
+inline constexpr double kCorner = 0.05;  // taste
+
 /// A stretch of the track.
 struct Span {
   double from = 0.0;

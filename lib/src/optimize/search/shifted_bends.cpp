@@ -13,7 +13,6 @@ constexpr double kBeside = 0.2 * kPair;  // taste
 /// Whether the track turns there by much within less than is left out where parts meet: where no radius is asked for bends
 /// begin and end with corners.
 bool has_corner_at(const Found& found, double place) {
-  constexpr double kCorner = 0.05;  // taste: [rad]
   const Vector& knots = found.track->mesh().knots;
   const Layout& layout = found.track->layout();
   double turn = 0.0;
