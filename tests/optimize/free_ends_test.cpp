@@ -419,6 +419,47 @@ TEST_CASE("a least bound is one: by another way to it a track keeps a little mor
   }
 }
 
+TEST_CASE(
+    "a least load that no track goes below, whatever its speed, takes no more searches than it has digits") {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.endpoints = {80.0, 40.0};
+  problem.body.friction = Friction::from_coefficient(0.05);
+  problem.limits.slope_angle = {5.0 * kDegree, 60.0 * kDegree};
+  problem.limits.exit_slope_angle = Range::fixed(10.0 * kDegree);
+  problem.limits.exit_speed.lowest = 22.0;
+  problem.objective.kind = ObjectiveKind::least_load;
+  const Optimum least = solved(problem);
+  CHECK(least.report.message == "every limit holds, and no track keeps a tighter bound");
+  CHECK(least.report.evaluations < 10000);  // 7,000; 23,600 where it is halved down to
+  const double load = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+  if (!testing::thorough()) return;
+  // Another way to it: what the fastest track may carry.
+  problem.objective.kind = ObjectiveKind::travel_time;
+  problem.limits.highest_normal_load = load * (1.0 + 1e-5);
+  CHECK(optimize(problem).report.status == OptimizeStatus::optimal);
+  problem.limits.highest_normal_load = load * (1.0 - 1e-5);
+  CHECK(optimize(problem).report.status == OptimizeStatus::infeasible);
+}
+
+TEST_CASE("where an arc does, no rate of curvature is the least, and told as none") {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.endpoints = {80.0, 40.0};
+  problem.body.friction = Friction::from_coefficient(0.05);
+  problem.limits.slope_angle = {5.0 * kDegree, 60.0 * kDegree};
+  problem.limits.exit_slope_angle = Range::fixed(10.0 * kDegree);
+  problem.limits.exit_speed.lowest = 22.0;
+  problem.objective.kind = ObjectiveKind::least_curvature_rate;
+  const Optimum least = solved(problem);
+  CHECK(least.report.message ==
+        "every limit holds on a track of one curvature, which has none that could change");
+  CHECK(least.report.active.empty());
+  // An arc turns as much to either side of its chord.
+  const double chord = std::atan2(40.0, 80.0);
+  CHECK(std::fabs(least.centerline->at(0.0).slope_angle - (2.0 * chord - 10.0 * kDegree)) < 1e-7);
+}
+
 TEST_CASE("a least bound that time ran out on is not called the least") {
   Problem problem = in_run(ObjectiveKind::least_load);
   problem.finish.kind = FinishKind::level;

@@ -15,6 +15,7 @@
 #include "optimize/conflicts/mean_slope.hpp"
 #include "optimize/least_bound/least_bound.hpp"
 #include "optimize/least_bound/least_peak.hpp"
+#include "optimize/optimize_briefly.hpp"
 #include "optimize/prices/prices.hpp"
 #include "optimize/problem/changed_bound.hpp"
 #include "optimize/problem/passages.hpp"
@@ -160,21 +161,13 @@ class Course {
 
   /// The search from a track that was made without one, and keeps the limits.
   void from_track(const Centerline& track) {
-    constexpr std::size_t kSteps = 128;  // taste
     constexpr std::size_t kPieces = 24;  // taste
     for (std::size_t way = 0; way < ways_.size() && !kept() && !stopped_; ++way) {
       const ScaledProblem problem = scaled(problem_, ways_[way]);
-      const double between = track.length() / problem.chord - problem.lead_in - problem.lead_out;
-      if (!(between > 2.0 * kShortestCore)) return;
-      GuessCurve curve;
-      curve.length = between;
-      for (std::size_t i = 0; i <= kSteps; ++i) {
-        curve.sigma.push_back(static_cast<double>(i) / kSteps);
-        const double s = (problem.lead_in + curve.sigma.back() * between) * problem.chord;
-        curve.zeta.push_back(track.at(std::min(s, track.length())).slope_angle);
-      }
-      const Mesh mesh = mesh_of(problem, graded_knots(curve, kPieces, 1.0), between);
-      from(Foothold{way, mesh, fit(curve, Transcription(mesh))});
+      const std::optional<GuessCurve> curve = curve_along(problem, track);
+      if (!curve) return;
+      const Mesh mesh = mesh_of(problem, graded_knots(*curve, kPieces, 1.0), curve->length);
+      from(Foothold{way, mesh, fit(*curve, Transcription(mesh))});
     }
   }
 
@@ -275,6 +268,9 @@ class Course {
   }
 
   [[nodiscard]] const Candidate& best() const { return *best_; }
+  [[nodiscard]] Foothold foothold() const {
+    return {way_, Mesh(best_->found->track->mesh()), best_->found->z};
+  }
   [[nodiscard]] bool kept() const { return best_ && best_->kept; }
   [[nodiscard]] bool stopped() const { return stopped_; }
 
@@ -640,10 +636,19 @@ std::string simple_text(bool stopped) {
              : "every limit holds on a track of lines and a bend; no search led from there to a better one";
 }
 
+/// What is told where no track keeps the limits.
+enum class Reasons { with_what_would_do, alone };
+
+/// Whether an answer is the track of the search, and not one that took its place.
+bool is_track_of(const Course& course, const Optimum& optimum) {
+  return course.kept() && optimum.centerline == course.best().track;
+}
+
 /// The search itself, of a problem that is sound.
-Optimum searched(const Problem& problem, const OptimizeOptions& options, Patience& patience,
-                 SearchControl& control, const Progress& progress) {
-  Optimum optimum;
+BriefEnd searched(const Problem& problem, const OptimizeOptions& options, Reasons reasons, Patience& patience,
+                  SearchControl& control, const Progress& progress) {
+  BriefEnd end;
+  Optimum& optimum = end.optimum;
   OptimizeReport& report = optimum.report;
   report.objective = problem.objective;
   report.unlimited_travel_time = unlimited_travel_time(problem);
@@ -661,11 +666,11 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   if (!at_once) at_once = too_close_at_an_end(problem, would_do);
   if (at_once) {
     tell_none(*std::move(at_once), true, false, report);
-    return optimum;
+    return end;
   }
   if (const std::optional<Creep> creep = creep_at_best(problem)) {
     tell_creeping(problem, options, *creep, optimum);
-    return optimum;
+    return end;
   }
 
   Course course(problem, options, control, progress);
@@ -675,7 +680,7 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   bool certain = false;
   const bool by_footholds = !course.kept();
   if (!course.kept() && !course.stopped())
-    conflict = course.explained(resolve_with(options, control), certain);
+    conflict = course.explained(reasons == Reasons::alone ? Resolve{} : resolve, certain);
   course.look_again(by_footholds);
   course.from_straight_line();
   course.from_ramp();
@@ -688,18 +693,19 @@ Optimum searched(const Problem& problem, const OptimizeOptions& options, Patienc
   if (!course.kept() && simple) {
     answer_with_any(*simple, optimum);
     report.message = simple_text(course.stopped());
-    return optimum;
+    return end;
   }
   if (!course.kept()) {
     tell_none(std::move(conflict), certain, course.stopped(), report);
-    return optimum;
+    return end;
   }
   tell_track(course, options, control, progress, report);
   optimum.centerline = course.best().track;
   const bool is_exact = take_unlimited(problem, options, optimum);
   take_ramp(problem, options, optimum);
   tell_end(problem, options, course, patience.out_of_time(), is_exact, optimum);
-  return optimum;
+  if (is_track_of(course, optimum)) end.foothold = course.foothold();
+  return end;
 }
 
 /// A track that ends where it is asked to. A search ends with the finish met as well as any limit is kept, mostly far better; with a
@@ -734,25 +740,46 @@ void meet_finish(const Problem& problem, double tolerance, Optimum& optimum) {
   optimum.report.checks = std::move(judgement.checks);
 }
 
+/// One search, of a problem that is sound.
+BriefEnd searched_once(const Problem& problem, const OptimizeOptions& options, Reasons reasons,
+                       const std::stop_token& stop, const Progress& progress) {
+  Patience patience(options.time_budget, stop);
+  SearchControl control;
+  control.limit_tolerance = 0.1 * options.limit_tolerance;
+  control.stop = [&] { return patience.ends(); };
+  BriefEnd end = searched(problem, options, reasons, patience, control, progress);
+  meet_finish(problem, options.limit_tolerance, end.optimum);
+  end.optimum.report.iterations = control.rounds;
+  end.optimum.report.evaluations = control.evaluations;
+  end.optimum.report.seconds = patience.seconds();
+  return end;
+}
+
+/// Steps that follow the descents, as pricing, cut themselves short without a word.
+Optimum with_stop_told(Optimum optimum, const std::stop_token& stop) {
+  if (optimum.centerline && stop.stop_requested()) tell_stopped(optimum.report);
+  return optimum;
+}
+
 /// optimize() of a problem that is sound, by the objective.
 Optimum searched_by_objective(const Problem& problem, const OptimizeOptions& options,
                               const std::stop_token& stop, const Progress& progress) {
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
   if (problem.objective.kind == ObjectiveKind::least_peak_wear)
     return least_peak(problem, options, stop, progress);
-  Patience patience(options.time_budget, stop);
-  SearchControl control;
-  control.limit_tolerance = 0.1 * options.limit_tolerance;
-  control.stop = [&] { return patience.ends(); };
-  Optimum optimum = searched(problem, options, patience, control, progress);
-  meet_finish(problem, options.limit_tolerance, optimum);
-  optimum.report.iterations = control.rounds;
-  optimum.report.evaluations = control.evaluations;
-  optimum.report.seconds = patience.seconds();
-  return optimum;
+  return searched_once(problem, options, Reasons::with_what_would_do, stop, progress).optimum;
 }
 
 }  // namespace
+
+BriefEnd optimize_briefly(const Problem& problem, const OptimizeOptions& options, const std::stop_token& stop,
+                          const Progress& progress) {
+  const Problem allowed = with_mean_slope_allowed(problem, options.limit_tolerance);
+  BriefEnd end = searched_once(allowed, options, Reasons::alone, stop, progress);
+  end.optimum = with_stop_told(std::move(end.optimum), stop);
+  return end;
+}
+
 }  // namespace optimizer
 
 Optimum optimize(const Problem& given, const OptimizeOptions& options, const std::stop_token& stop,
@@ -762,10 +789,7 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
   require_valid(options);
   const Problem problem = with_mean_slope_allowed(with_true_changes(given), options.limit_tolerance);
   require_passable_in_order(problem);
-  Optimum optimum = searched_by_objective(problem, options, stop, progress);
-  // Steps that follow the descents, as pricing, cut themselves short without a word.
-  if (optimum.centerline && stop.stop_requested()) tell_stopped(optimum.report);
-  return optimum;
+  return with_stop_told(searched_by_objective(problem, options, stop, progress), stop);
 }
 
 }  // namespace glissade

@@ -26,24 +26,6 @@ constexpr double kContradiction = 1e-5;  // accuracy: a hundred times that of a 
 // Below this a finer mesh may make up for what is left.
 constexpr double kNearly = 0.005;  // taste
 
-/// The bound after relaxing it by t scales, in the user's unit.
-double relaxed_bound(const LimitSpec& limit, double t, double measured) {
-  const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
-  if (limit.side == 0) return (squared ? std::sqrt(std::max(measured, 0.0)) : measured) / limit.per_si;
-  if (limit.name.is_radius()) {
-    // A radius: its curvature grows by t times its own bound.
-    return limit.bound_si / (1.0 + t);
-  }
-  if (squared) {
-    const double v = limit.bound * limit.bound + limit.side * t * 2.0 * limit.bound * limit.scale;
-    const double share = std::sqrt(std::max(v, 0.0)) / limit.bound;
-    // A depth is as much larger as the speed may be smaller.
-    return limit.name.id == LimitId::highest_burden_depth ? limit.bound_si / share : limit.bound_si * share;
-  }
-  if (limit.measure == Measure::curvature_rate) return limit.bound_si * (1.0 + t);
-  return limit.bound_si + limit.side * t * limit.scale / limit.per_si;
-}
-
 struct Attempt {
   std::shared_ptr<ScaledProblem> problem;
   Mesh mesh;
@@ -783,11 +765,12 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   conflict.limits = std::move(opposition.limits);
   const Enough enough(problem, search.best().problem->limits, footing, resolve, control);
   for (const GivingWay& way : opposition.giving) {
+    if (!resolve.anew) break;
     if (const auto relaxation = enough.of(way)) conflict.relaxations.push_back(*relaxation);
   }
   // Nothing stands against it but energy.
   if (beyond) conflict.limits = {beyond->limit};
-  if (!conflict.limits.empty()) add_leads(problem, resolve, control, conflict);
+  if (!conflict.limits.empty() && resolve.anew) add_leads(problem, resolve, control, conflict);
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
   const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());

@@ -29,7 +29,7 @@ struct Beginning {
   LimitName limit;  ///< that asks for bends, and gives way alone
 };
 
-/// How a problem with another bound is solved: what is said to be enough has to be.
+/// How a problem with another bound is solved: what is said to be enough has to be. Without its functions nothing is said to be.
 struct Resolve {
   /// From the search's own starts; where bends are looked for, from the likely ones alone if there are any, and from these
   /// before all others. It ends after so many evaluations more, whatever is found by then.

@@ -10,7 +10,9 @@
 
 #include "optimize/conflicts/mean_slope.hpp"
 #include "optimize/least_bound/bound_bracket.hpp"
+#include "optimize/least_bound/least_kept.hpp"
 #include "optimize/least_bound/most_reached.hpp"
+#include "optimize/optimize_briefly.hpp"
 #include "optimize/search/patience.hpp"
 #include "optimize/search/starts.hpp"
 #include "referee/judgement.hpp"
@@ -44,6 +46,7 @@ class LeastBound {
         outlay_(options, stop),
         tried_(problem),
         wanted_(*problem.limits.exit_speed.lowest) {
+    control_.stop = [this] { return outlay_.ends(); };
     const bool load = problem.objective.kind == ObjectiveKind::least_load;
     member_ = load ? &Limits::highest_normal_load : &Limits::highest_curvature_rate;
     name_ = {load ? LimitId::highest_normal_load : LimitId::highest_curvature_rate, Bound::highest};
@@ -73,7 +76,11 @@ class LeastBound {
   Optimum searched(const Problem& problem) {
     OptimizeOptions options = options_;
     options.time_budget = outlay_.left();
-    Optimum optimum = optimize(problem, options, stop_, progress_);
+    // Without a track the end is what the user reads: its reasons are told in full.
+    BriefEnd end = best_.centerline ? optimize_briefly(problem, options, stop_, progress_)
+                                    : BriefEnd{optimize(problem, options, stop_, progress_), std::nullopt};
+    Optimum& optimum = end.optimum;
+    foothold_ = std::move(end.foothold);
     ++searches_;
     outlay_.add(optimum.report);
     return optimum;
@@ -92,6 +99,7 @@ class LeastBound {
 
   void take(Optimum optimum) {
     best_ = std::move(optimum);
+    best_foothold_ = std::exchange(foothold_, std::nullopt);
     best_by_speed_ = best_.report.objective.kind == ObjectiveKind::exit_speed;
   }
 
@@ -193,7 +201,6 @@ class LeastBound {
   /// Looks at a bound, by a second way where the first comes to no end.
   Verdict look(double bound) {
     Optimum fastest = within(bound);
-    would_do_ = 0.0;
     excess_ = fastest.centerline ? slowest_of(fastest) - wanted_ : -wanted_;
     price_ = fastest.centerline ? price_in(fastest.report) : 0.0;
     const bool there = fastest.centerline != nullptr;
@@ -204,13 +211,7 @@ class LeastBound {
       return Verdict::does;
     }
     if (there && optimal) return Verdict::too_slow;
-    if (fastest.report.status == OptimizeStatus::infeasible) {
-      // It may have found what would do.
-      for (const Relaxation& other : fastest.report.conflict.relaxations) {
-        if (other.limit == name_) would_do_ = other.needed;
-      }
-      return Verdict::kept_by_none;
-    }
+    if (fastest.report.status == OptimizeStatus::infeasible) return Verdict::kept_by_none;
     if (outlay_.ends()) return Verdict::untold;
     Optimum other = asking_for_speed(bound);
     if (!other.centerline)
@@ -233,14 +234,53 @@ class LeastBound {
       if (verdict == Verdict::untold) ++untold;
       bracket_.learn(verdict == Verdict::does ? std::min(bound, reached_by(best_.centerline)) : bound,
                      verdict);
+      settled_ = settled_ || is_as_good_as_none(bracket_.loose);
       if (settled_) return;
-      const double floor = bracket_.floor();
-      const double newton = price_ > 0.0 ? newton_step(bound, excess_, price_) : would_do_;
-      // From far above the tangent leads to bounds that nothing keeps, and such searches take the longest.
-      constexpr double kBoldest = 0.25;  // taste
-      const double next = std::max(newton, kBoldest * bracket_.loose);
-      bound = next > floor && next < bracket_.loose && newton > 0.0 ? next : between(floor, bracket_.loose);
+      bound = next_after(bound, verdict);
     }
+  }
+
+  [[nodiscard]] double next_after(double bound, Verdict verdict) {
+    // From far above the tangent leads to bounds that nothing keeps, and such searches take the longest.
+    constexpr double kBoldest = 0.25;  // taste
+    const double floor = bracket_.floor();
+    const auto is_open = [&](double next) { return next > floor && next < bracket_.loose; };
+    if (price_ > 0.0) {
+      const double tangent = newton_step(bound, excess_, price_);
+      const double next = std::max(tangent, kBoldest * bracket_.loose);
+      if (tangent > 0.0 && is_open(next)) return next;
+    }
+    const double next = by_descent(bound, verdict);
+    if (is_open(next)) return next;
+    step_ = 0.0;
+    return between(floor, bracket_.loose);
+  }
+
+  /// Where tracks fast enough do not keep the bound, but slower ones neither: just above the least that a descent from the
+  /// best track comes to, and once that does just below, in steps that grow. @return 0 where nothing is known
+  [[nodiscard]] double by_descent(double bound, Verdict verdict) {
+    constexpr double kFirstStep = 1e-7;  // taste: a tenth of what such bounds are told to
+    constexpr double kGrowth = 8.0;      // taste
+    constexpr double kJustBelow = 0.9;   // taste: of the accuracy, so that the bracket closes
+    if (bracket_.why != Verdict::kept_by_none || !(bracket_.tight > 0.0) || verdict == Verdict::untold)
+      return 0.0;
+    if (verdict == Verdict::kept_by_none && step_ > 0.0) {
+      // Its stations keep it, not what lies between them.
+      step_ *= kGrowth;
+      return bound * (1.0 + step_);
+    }
+    if (!best_foothold_) return 0.0;
+    Problem problem = tried_;
+    problem.limits.*member_ = bracket_.tight;
+    const std::optional<double> least = least_kept_near(problem, name_, *best_foothold_, control_);
+    const double below = bracket_.loose * (1.0 - kJustBelow * bracket_.accuracy());
+    if (!least) return 0.0;
+    if (verdict != Verdict::does || *least < below) {
+      step_ = kFirstStep;
+      return *least * (1.0 + step_);
+    }
+    step_ = 0.0;
+    return below;
   }
 
   /// What no track goes below, shown without a search. 0 where nothing is known.
@@ -250,6 +290,7 @@ class LeastBound {
 
   /// Whether, against expectation, a bound a little below the least does: then goes on from there.
   bool does_below() {
+    if (is_as_good_as_none(bracket_.loose)) return false;
     const double bound = bracket_.loose * (1.0 - kNeighbour);
     if (!(bound > 0.0)) return false;  // there is none
     if (bound <= bracket_.tight && bracket_.why == Verdict::kept_by_none) return false;
@@ -287,6 +328,13 @@ class LeastBound {
     if (name_.id == LimitId::highest_normal_load) return std::numeric_limits<double>::infinity();
     const double length = track->length();
     return 1e4 / (length * length);
+  }
+  /// A rate of curvature by which a track is an arc, or a straight line: its slope is off one's by less than a billionth.
+  [[nodiscard]] bool is_as_good_as_none(double bound) const {
+    constexpr double kTurned = 1e-9;  // accuracy: a hundredth of that of a limit [rad]
+    if (name_.id == LimitId::highest_normal_load) return false;
+    const double length = best_.centerline->length();
+    return bound * length * length < kTurned;
   }
   /// Newton's step to the bound that gives the speed wanted, not in the bound but in the length of the bends that it
   /// allows, which goes with 1/load or 1/sqrt(rate): the speed that a bend costs is nearly linear in its length.
@@ -334,7 +382,9 @@ class LeastBound {
       report.status = OptimizeStatus::feasible_not_converged;
       report.message = "every limit holds, but the tightest bound was not found: " + open_text();
     } else if (report.status == OptimizeStatus::optimal) {
-      report.message = bracket_.why == Verdict::kept_by_none
+      report.message = is_as_good_as_none(bracket_.loose)
+                           ? "every limit holds on a track of one curvature, which has none that could change"
+                       : bracket_.why == Verdict::kept_by_none
                            ? "every limit holds, and no track keeps a tighter bound"
                            : "every limit holds, and a tighter bound keeps the exit speed from being reached";
     }
@@ -356,6 +406,7 @@ class LeastBound {
   const std::stop_token& stop_;
   const Progress& progress_;
   Outlay outlay_;
+  SearchControl control_;  ///< of descents
   Problem tried_;
   double wanted_;
   std::optional<double> Limits::*member_ = nullptr;
@@ -363,12 +414,14 @@ class LeastBound {
   static constexpr int kMostNeighbours = 4;  // budget
   static constexpr int kMostUntold = 6;      // budget: they take the longest
   Bracket bracket_;
-  Optimum best_;                ///< at `loose`
-  bool best_by_speed_ = false;  ///< the greatest speed was what it was searched for: it has prices
-  bool settled_ = false;        ///< nothing tighter does
-  double excess_ = 0.0;         ///< of the exit speed, at the bound looked at last
-  double price_ = 0.0;          ///< of that bound, in speed
-  double would_do_ = 0.0;       ///< a looser one that was found instead; 0 where none was
+  Optimum best_;                           ///< at `loose`
+  std::optional<Foothold> foothold_;       ///< of the last search
+  std::optional<Foothold> best_foothold_;  ///< of `best_`; none where that came from no mesh
+  bool best_by_speed_ = false;             ///< the greatest speed was what it was searched for: it has prices
+  bool settled_ = false;                   ///< nothing tighter does
+  double excess_ = 0.0;                    ///< of the exit speed, at the bound looked at last
+  double price_ = 0.0;                     ///< of that bound, in speed
+  double step_ = 0.0;  ///< by how much the last bound lay above what a descent came to, of itself
   int searches_ = 0;
 };
 

@@ -648,6 +648,23 @@ bool is_smooth(const ScaledProblem& problem) {
                      [](const LimitSpec& limit) { return limit.measure == Measure::curvature_rate; });
 }
 
+double relaxed_bound(const LimitSpec& limit, double t, double measured) {
+  const bool squared = limit.measure == Measure::speed || limit.measure == Measure::exit_speed;
+  if (limit.side == 0) return (squared ? std::sqrt(std::max(measured, 0.0)) : measured) / limit.per_si;
+  if (limit.name.is_radius()) {
+    // A radius: its curvature grows by t times its own bound.
+    return limit.bound_si / (1.0 + t);
+  }
+  if (squared) {
+    const double v = limit.bound * limit.bound + limit.side * t * 2.0 * limit.bound * limit.scale;
+    const double share = std::sqrt(std::max(v, 0.0)) / limit.bound;
+    // A depth is as much larger as the speed may be smaller.
+    return limit.name.id == LimitId::highest_burden_depth ? limit.bound_si / share : limit.bound_si * share;
+  }
+  if (limit.measure == Measure::curvature_rate) return limit.bound_si * (1.0 + t);
+  return limit.bound_si + limit.side * t * limit.scale / limit.per_si;
+}
+
 bool is_cap_along(const LimitSpec& limit) {
   return limit.measure == Measure::speed && limit.side > 0;
 }

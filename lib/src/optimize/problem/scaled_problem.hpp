@@ -34,6 +34,10 @@ struct LimitSpec {
   int width_power = 0;
 };
 
+/// The bound after relaxing a limit by t scales, in the user's unit.
+/// @param measured  what an equality measures then, as `bound`; it alone counts
+[[nodiscard]] double relaxed_bound(const LimitSpec& limit, double t, double measured);
+
 /// A chain of straight edges that forbids what lies behind it.
 struct Obstacle {
   std::vector<Vec2> corners;  ///< ascending run; two for a half-plane

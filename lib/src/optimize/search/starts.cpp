@@ -129,6 +129,20 @@ std::optional<GuessCurve> straight_line(const ScaledProblem& problem, Vec2 finis
   return curve;
 }
 
+std::optional<GuessCurve> curve_along(const ScaledProblem& problem, const Centerline& track) {
+  constexpr std::size_t kSteps = 128;  // taste
+  const double between = track.length() / problem.chord - problem.lead_in - problem.lead_out;
+  if (!(between > 2.0 * kShortestCore)) return std::nullopt;
+  GuessCurve curve;
+  curve.length = between;
+  for (std::size_t i = 0; i <= kSteps; ++i) {
+    curve.sigma.push_back(static_cast<double>(i) / kSteps);
+    const double s = (problem.lead_in + curve.sigma.back() * between) * problem.chord;
+    curve.zeta.push_back(track.at(std::min(s, track.length())).slope_angle);
+  }
+  return curve;
+}
+
 std::optional<FlyingStart> flying_start(const ScaledProblem& problem) {
   constexpr int kSteps = 128;     // taste
   constexpr double kSlow = 1.01;  // taste: of the speed that just arrives

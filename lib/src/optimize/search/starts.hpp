@@ -1,5 +1,7 @@
 #pragma once
 
+#include "glissade/centerline/centerline.hpp"
+
 #include "optimize/discretise/guess.hpp"
 #include "optimize/problem/scaled_problem.hpp"
 
@@ -11,6 +13,9 @@ namespace glissade::optimizer {
 /// A straight line to a finish, between its straight ends. @return none where these leave nothing between them
 /// @param finish  run and drop [chords]
 [[nodiscard]] std::optional<GuessCurve> straight_line(const ScaledProblem& problem, Vec2 finish);
+
+/// The curve of a track that is known. @return none where straight ends leave nothing between them
+[[nodiscard]] std::optional<GuessCurve> curve_along(const ScaledProblem& problem, const Centerline& track);
 
 /// Curves to begin the search with, the most promising first; none comes from the user. Lengths are those of
 /// the core, without the straight ends.
