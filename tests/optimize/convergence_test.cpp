@@ -5,6 +5,8 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/hand_optima.hpp"
+#include "optimize/problem/passages.hpp"
+#include "optimize/search/searcher.hpp"
 #include "support/catch.hpp"
 
 #include <chrono>
@@ -117,6 +119,38 @@ TEST_CASE("a time budget counts what the search takes itself: a busy machine end
   // What it takes itself does count.
   options.time_budget = 1e-4;
   CHECK(optimize(problem, options).report.ended_early);
+}
+
+TEST_CASE(
+    "a search that is asked to end has a track from where it was, wherever that is, once it had one at its "
+    "stations") {
+  namespace search = optimizer;
+  Problem problem;
+  problem.gravity = hand_optima::kGravity;
+  problem.endpoints = {10.0, 5.0};
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.limits.slope_angle = {0.0, std::acos(0.5)};
+  problem.limits.smallest_crest_radius = problem.limits.smallest_valley_radius = 1.0;
+  problem.limits.speed.highest = 6.6;
+  const OptimizeOptions options;
+  const Progress quiet;
+  int by_last_known = 0;
+  for (const int most : {150, 200, 250, 300, 350, 400}) {
+    search::SearchControl control;
+    control.limit_tolerance = 0.1 * options.limit_tolerance;
+    control.stop = [&] { return control.evaluations > most; };
+    search::Searcher searcher(problem, options, control, quiet);
+    const search::Candidate end = searcher.search(search::all_passages(problem.limits)[0]);
+    CAPTURE(most, control.evaluations);
+    CHECK(end.stopped);
+    if (end.kept) continue;
+    ++by_last_known;
+    const search::Candidate last = searcher.from_known();
+    CHECK(last.stopped);
+    REQUIRE(last.kept);
+    CHECK(last.judgement.worst <= options.limit_tolerance);
+  }
+  CHECK(by_last_known > 0);
 }
 
 }  // namespace convergence_test

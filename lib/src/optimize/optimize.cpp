@@ -176,6 +176,11 @@ class Course {
       take(foothold.passages, searcher_.search_from(ways_[foothold.passages], foothold.mesh, foothold.z));
   }
 
+  /// Where the search was asked to end, whatever it was at: what it has come by on its way.
+  void from_known() {
+    if (stopped_ && !kept()) take(way_, searcher_.from_known());
+  }
+
   /// What became of a track that was to be the best one.
   enum class Onto { untried, no_better, taken };
   /// From the best one to another optimum of its problem, where that wins something.
@@ -684,6 +689,7 @@ BriefEnd searched(const Problem& problem, const OptimizeOptions& options, Reason
   course.look_again(by_footholds);
   course.from_straight_line();
   course.from_ramp();
+  course.from_known();
   std::optional<KeptTrack> simple;
   // Who asks to stop before there is a track wants none.
   const bool may_answer = !course.stopped() || patience.out_of_time();

@@ -38,6 +38,8 @@ constexpr int kTighteningRounds = 20;    // budget
 // So many of them, short ones, once the search has been asked to end.
 constexpr int kGraceRounds = 6;  // budget
 constexpr int kGraceEffort = 2;  // budget
+// In all of them together.
+constexpr int kGraceEvaluations = 100;  // budget: an eighth of a second
 // In the first of them limits are held at the places that the referee names; later they are tightened.
 constexpr int kHoldingRounds = 8;  // taste
 // In so many the pieces around places that are dear to hold are halved.
@@ -272,6 +274,7 @@ Candidate Searcher::search(Opening opening, const std::optional<Candidate>& to_b
       rough = tried.size() == 1 ? std::move(opening.first) : coarse(*candidate.rough, start);
     }
     std::optional<Found>& found = rough.found;
+    if (found) remember(candidate, *found);
     if (control_.stop()) candidate.stopped = true;
     if (!found || is_behind(*found, false)) continue;
     if (control_.any_track) {
@@ -370,6 +373,7 @@ Searcher::Stage Searcher::carried_on(const Passages& passages, const Mesh& mesh,
   aim_at(kCoarseTolerance, 12);
   Found found = minimise(problem, mesh, z, margins_, control_);
   stage.found = laid_anew(problem, on_finer_meshes(problem, problem, std::move(found)));
+  remember(stage.candidate, stage.found);
   return stage;
 }
 
@@ -426,6 +430,38 @@ Found Searcher::kept_on(const ScaledProblem& problem, const Mesh& mesh, const Ve
   relaxed.found.violation = relaxed.t;
   relaxed.found.residual = HUGE_VAL;
   return std::move(relaxed.found);
+}
+
+void Searcher::remember(const Candidate& candidate, const Found& found) {
+  constexpr std::size_t kMost = 4;  // budget: of those that are mended where time is over
+  if (found.stopped || !found.feasible(options_.limit_tolerance)) return;
+  Candidate begun;
+  begun.problem = candidate.problem;
+  begun.rough = candidate.rough;
+  const auto better = [](const auto& a, const auto& b) { return a.second.objective < b.second.objective; };
+  std::pair<Candidate, Found> known{std::move(begun), found};
+  const auto at = std::upper_bound(known_.begin(), known_.end(), known, better);
+  known_.insert(at, std::move(known));
+  if (known_.size() > kMost) known_.pop_back();
+}
+
+Candidate Searcher::from_known() {
+  Candidate candidate;
+  candidate.stopped = true;
+  // Where rounds that keep a track fast come to nothing, any track will do.
+  for (const bool any : {false, true}) {
+    for (const auto& [begun, known] : known_) {
+      if (candidate.kept) break;
+      candidate = begun;
+      margins_ = known.rows->margins();
+      Found found = known;
+      found.stopped = true;
+      control_.any_track = any;
+      mend(candidate, exactly(*candidate.problem, std::move(found)));
+      control_.any_track = false;
+    }
+  }
+  return candidate;
 }
 
 Candidate Searcher::begun(const Passages& passages) {
@@ -536,11 +572,14 @@ void Searcher::settle(Candidate& candidate, Found found) {
   finer_mesh_wins_.reset();
   moves_promise_ = 0.0;
   multipliers_ahead_.clear();
+  remember(candidate, found);
   if (!found.stopped) found = held_between(problem, std::move(found));
   if (!found.stopped) found = with_far_jumps_moved(problem, std::move(found));
   if (!found.stopped) found = followed(problem, std::move(found));
+  remember(candidate, found);
   if (!found.stopped) found = bent_at_finish(problem, std::move(found));
   if (!found.stopped) found = halved(problem, std::move(found));
+  remember(candidate, found);
   std::optional<Found> moved;
   if (is_optimum(found) && !is_smooth(problem)) moved = with_jumps_at_rest(problem, found);
   const auto mend_on = [&](Candidate& end_of, Found end) {
@@ -896,6 +935,7 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
   tell("referee", 0.9);
   HeldPlaces held(places);
   int rides_to_end = 0;  // of those that end early the rest is not known
+  std::optional<int> grace_ends;
   for (int round = 0; round < kTighteningRounds; ++round) {
     const CenterlinePtr track = track_of(problem, found);
     const referee::Judgement judgement = referee::judge_track(problem_, track, referee::kRefereeSamples);
@@ -905,7 +945,9 @@ void Searcher::mend(Candidate& candidate, Found found, const Vector& places) {
     if (found.stopped) {
       // Asked to end on a track that all but keeps its limits: a little more work makes it one that does.
       if (!found.feasible(kNearlyFeasible) || round >= kGraceRounds) break;
-      control_.stop = [] { return false; };
+      if (!grace_ends) grace_ends = control_.evaluations + kGraceEvaluations;
+      if (control_.evaluations > *grace_ends) break;
+      control_.stop = [&] { return control_.evaluations > *grace_ends; };
     }
     if (round >= kPatientRounds && !found.feasible(kHopeless)) break;
     const auto share_of = [&](double place) { return found.track->sigma_at(found.z, place / problem.chord); };

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace glissade::optimizer {
@@ -103,6 +104,9 @@ class Searcher {
   [[nodiscard]] Candidate with_sharper_crest(Candidate best);
   /// A track that keeps the limits on its mesh, mended so that it keeps them everywhere, however slow it is.
   [[nodiscard]] Candidate mended(const Passages& passages, const Mesh& mesh, const Vector& z);
+  /// Where the search was asked to end before the referee had found any track to keep the limits: the best one that kept them
+  /// at the stations of its mesh, mended in a few short rounds. @return one that keeps nothing where there was none
+  [[nodiscard]] Candidate from_known();
 
  private:
   // Pieces of levels before the finest.
@@ -111,6 +115,8 @@ class Searcher {
   static constexpr double kCoarseTolerance = 1e-3;  // taste
 
   [[nodiscard]] Candidate begun(const Passages& passages);
+  /// @param found  of the rough problem of a candidate
+  void remember(const Candidate& candidate, const Found& found);
   /// On the very problems of another one, which tracks found for it refer to.
   [[nodiscard]] Candidate begun_again(const Candidate& known);
   /// Limits that nothing has tightened yet.
@@ -230,6 +236,8 @@ class Searcher {
   const OptimizeOptions& options_;
   SearchControl& control_;
   const Progress& progress_;
+  /// As of from_known(), the best ones first.
+  std::vector<std::pair<Candidate, Found>> known_;
   std::optional<double> to_beat_;          ///< objective of the best track by other ways
   std::optional<double> finer_mesh_wins_;  ///< as last looked at
   double moves_promise_ = 0.0;             ///< as last looked at
