@@ -79,11 +79,10 @@ class LeastBound {
     // Without a track the end is what the user reads: its reasons are told in full.
     BriefEnd end = best_.centerline ? optimize_briefly(problem, options, stop_, progress_)
                                     : BriefEnd{optimize(problem, options, stop_, progress_), std::nullopt};
-    Optimum& optimum = end.optimum;
     foothold_ = std::move(end.foothold);
     ++searches_;
-    outlay_.add(optimum.report);
-    return optimum;
+    outlay_.add(end.optimum.report);
+    return std::move(end.optimum);
   }
   Optimum within(const std::optional<double>& bound) {
     tried_.limits.*member_ = bound;
@@ -256,8 +255,8 @@ class LeastBound {
     return between(floor, bracket_.loose);
   }
 
-  /// Where tracks fast enough do not keep the bound, but slower ones neither: just above the least that a descent from the
-  /// best track comes to, and once that does just below, in steps that grow. @return 0 where nothing is known
+  /// Where no track keeps a tighter bound, however slow it is: just above the least that a descent from the best track comes
+  /// to, in steps that grow while that does not do, and just below once it does. @return 0 where nothing is known
   [[nodiscard]] double by_descent(double bound, Verdict verdict) {
     constexpr double kFirstStep = 1e-7;  // taste: a tenth of what such bounds are told to
     constexpr double kGrowth = 8.0;      // taste
@@ -356,6 +355,7 @@ class LeastBound {
 
   /// In units of the bound, which the speed wanted has a price in, too.
   Optimum priced() {
+    outlay_.add(control_);
     if (!best_by_speed_ && bracket_.loose > 0.0 && !outlay_.ends()) {
       Optimum again = within(bracket_.loose);
       if (again.centerline && slowest_of(again) >= wanted_ * (1.0 - kSpeedAccuracy)) take(std::move(again));

@@ -4,7 +4,8 @@
 #include "optimize/problem/changed_bound.hpp"
 #include "optimize/problem/passages.hpp"
 
-#include <cstddef>
+#include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace glissade::optimizer {
