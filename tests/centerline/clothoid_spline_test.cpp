@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/random.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ PrecisePoint integrate(double entry_slope_angle, const std::vector<ClothoidSegme
 TEST_CASE("clothoid spline: agrees with 50-digit integration on random tracks") {
   auto random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int track = 0; track < 25; ++track) {
+  for (int track = 0; track < (testing::thorough() ? 25 : 10); ++track) {
     const double scale = std::pow(10.0, random.between(-3.0, 5.0));
     std::vector<ClothoidSegment> segments;
     const int count = random.integer(1, 4);

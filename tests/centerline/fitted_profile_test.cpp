@@ -230,8 +230,7 @@ TEST_CASE("a wavy profile keeps its waves, however many and however sampled") {
       for (const double noise : {0.0, 0.02}) {
         // Many points take long: elsewhere than in CI some waves with noise, few of them where points are most. Exact
         // points of many waves are those of another test.
-        const bool is_quick = count == 40 ||
-                              (count == 120 && periods >= 5.0 && (noise > 0.0 || periods < 8.0)) ||
+        const bool is_quick = count == 40 || (count == 120 && periods == 5.0 && noise > 0.0) ||
                               (count == 400 && periods < 2.0 && noise > 0.0);
         if (!is_quick && !testing::thorough()) continue;
         const auto wave = [&](double x) {
@@ -263,7 +262,7 @@ TEST_CASE(
   constexpr double kHeight = 2.0;
   for (const int each : {5, 6, 8, 12, 16}) {
     for (const int periods : {1, 3, 5, 6, 8, 10}) {
-      if (each * periods > 50 && !testing::thorough()) continue;
+      if (each * periods > 40 && !testing::thorough()) continue;
       for (const double phase : {0.0, 0.4}) {
         // The dearest at one phase.
         if (each * periods > 100 && phase > 0.0) continue;
@@ -305,9 +304,9 @@ TEST_CASE("exact points are followed to millimetres however many they are and ho
   };
   for (const Wave& wave : {Wave{"sine", 10.0, 0.0}, Wave{"sine", 20.0, 0.0}, Wave{"chirp", 12.0, 0.6}}) {
     for (const int count : {160, 170, 200, 400, 1000, 2000}) {
-      // Elsewhere than in CI of each wave what takes least, many points and few.
+      // Elsewhere than in CI of each wave what takes least, many points of one and few of the others.
       const bool is_quick = (wave.periods < 11.0 && count == 1000) || (wave.chirp > 0.0 && count == 160) ||
-                            (wave.periods > 19.0 && (count == 170 || count == 2000));
+                            (wave.periods > 19.0 && count == 170);
       if (!is_quick && !testing::thorough()) continue;
       const auto height = [&](double x) {
         const double u = x / kRun;
@@ -342,7 +341,7 @@ TEST_CASE("the smallest radius of a wave is known from nine points a period on, 
       const int count = each * static_cast<int>(periods);
       // Beyond, searches for few pieces take long, and tell the same.
       if (count > 500 || (count == 300 && each == 10)) continue;
-      const bool is_quick = (periods == 20.0 && (each == 6 || each == 9)) || (periods == 50.0 && each == 10);
+      const bool is_quick = periods == 20.0 && (each == 6 || each == 9);
       if (!is_quick && !testing::thorough()) continue;
       const double wave = turn * periods / kRun;
       const auto height = [&](double x) { return 0.5 * x + kHeight * std::sin(wave * x + 0.4); };
@@ -485,10 +484,13 @@ double largest_curvature_of(const FittedProfile& profile) {
 
 TEST_CASE("no pieces stand for exact points of a wave, which a smooth curve meets") {
   // A straight of half a metre at the end that is none, or a bend: radii were 4 to 66 % too small.
+  int number = 0;
   for (const SlopedWave& wave :
        {SlopedWave{7.0, 18, 0.8, 126.0, 5.2, 0.4}, SlopedWave{7.0, 18, 0.84, 128.0, 5.2, 0.38},
         SlopedWave{7.0, 18, 0.8, 126.0, 1.5, 0.4}, SlopedWave{10.0, 16, 1.0, 100.0, 0.0, 0.4},
         SlopedWave{13.0, 20, 0.5, 50.0, 0.3, 0.2}, SlopedWave{5.0, 25, 1.461, 140.4, 1.278, 0.204}}) {
+    // Every other one, elsewhere than in CI.
+    if (number++ % 2 == 1 && !testing::thorough()) continue;
     const FittedProfile profile(wave.points());
     const double truth = wave.largest_curvature();
     INFO(wave.waves << " waves of " << wave.points_each << " points, phase " << wave.phase << ": radius "

@@ -158,7 +158,7 @@ TEST_CASE("tables of fastest tracks next to the limit of what can be reached com
   const std::vector<double> coefficients =
       testing::thorough() ? std::vector{0.02, 0.3, 2.0} : std::vector{0.3};
   const std::vector<double> margins =
-      testing::thorough() ? std::vector{0.15, 0.05, 0.03, 0.01, 1e-3, 1e-4} : std::vector{0.05, 1e-3, 1e-4};
+      testing::thorough() ? std::vector{0.15, 0.05, 0.03, 0.01, 1e-3, 1e-4} : std::vector{0.05, 1e-4};
   for (const double mu : coefficients) {
     for (const double margin : margins) {
       const Friction friction = Friction::from_coefficient(mu);
@@ -177,14 +177,13 @@ TEST_CASE("a bend that is lost in the rounding of places is no fault of its rows
   const Friction friction = Friction::from_coefficient(0.1);
   const std::vector<double> margins = testing::thorough()
                                           ? std::vector{1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12}
-                                          : std::vector{1e-2, 1e-6, 1e-10};
+                                          : std::vector{1e-2, 1e-10};
   for (const double margin : margins) {
     const CoulombBrachistochrone curve({3.0, 0.3 * (1.0 + margin)}, friction);
     INFO(margin << " above the limit of what can be reached");
-    CHECK(refusal(table_of(curve)) == "accepted");
     CHECK(refusal(rows_at_stations(curve, 0.0)) == "accepted");
     CHECK(refusal(rows_at_stations(curve, 4321.0)) == "accepted");
-    const TabulatedCurve table(table_of(curve));
+    const TabulatedCurve table(table_of(curve));  // one that is refused throws
     CHECK(table.length() == Approx(curve.length()).epsilon(kTableAccuracy));
     CHECK(table.at(table.length()).slope_angle == Approx(curve.at(curve.length()).slope_angle).margin(1e-9));
   }

@@ -82,28 +82,33 @@ Words fish_offers(const Place& place, const std::string& line) {
   return lines_of(outcome.output);
 }
 
-/// Types a line and Tab into a zsh on a terminal of its own.
-/// @return what the line then is
-std::string zsh_completes(const Place& place, const std::string& line) {
-  put_bytes(
-      place.file("ask"),
+/// Types lines and Tab after each into one zsh on a terminal of its own.
+/// @return what each line then is
+std::vector<std::string> zsh_completes(const Place& place, const std::vector<std::string>& lines) {
+  std::string ask =
       "zmodload zsh/zpty\n"
       "zpty z env HOME=$PWD TERM=dumb PS1=READY zsh -f -i\n"
       "zpty -w z 'autoload -Uz compinit; compinit -D -u; source ./script; PS1=; unsetopt zle_bracketed_paste "
       "2>/dev/null; "
       "stty -echo 2>/dev/null; show() { print -r -- \"<<$BUFFER>>\"; zle kill-whole-line }; zle -N show; "
       "bindkey ^X show; unsetopt prompt_cr prompt_sp; print COMES-FROM-HERE'\n"
-      "zpty -r z text '*COMES-FROM-HERE*COMES-FROM-HERE*'\n"
-      "zpty -w -n z $'" +
-          line +
-          "\\t\\x18'\n"
-          "zpty -r z text '*<<*>>*'\n"
-          "print -r -- \"$text\"\n");
+      "zpty -r z text '*COMES-FROM-HERE*COMES-FROM-HERE*'\n";
+  for (const std::string& line : lines) {
+    ask += "zpty -w -n z $'" + line + "\\t\\x18'\n";
+    ask += "zpty -r z text '*<<*>>*'\nprint -r -- \"$text\"\n";
+  }
+  put_bytes(place.file("ask"), ask);
   const Outcome outcome = place.run("timeout 60 zsh -f ./ask");
   INFO(outcome.output + outcome.errors);
-  const std::size_t from = outcome.output.find("<<");
-  REQUIRE(from != std::string::npos);
-  return outcome.output.substr(from + 2, outcome.output.find(">>", from) - from - 2);
+  std::vector<std::string> completed;
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::size_t from = outcome.output.find("<<", to);
+    REQUIRE(from != std::string::npos);
+    to = outcome.output.find(">>", from);
+    completed.push_back(outcome.output.substr(from + 2, to - from - 2));
+  }
+  return completed;
 }
 
 }  // namespace
@@ -214,11 +219,15 @@ TEST_CASE("zsh completes commands, options, files and what stands behind =") {
     return;
   }
   const Place place("zsh");
-  CHECK(zsh_completes(place, "glissade bu") == "glissade build ");
-  CHECK(zsh_completes(place, "glissade build --js") == "glissade build --json ");
-  CHECK(zsh_completes(place, "glissade build chute.") == "glissade build chute.yaml ");
-  CHECK(zsh_completes(place, "glissade inspect chute.") == "glissade inspect chute.stl ");
-  CHECK(zsh_completes(place, "glissade build x --set cross_section.kind=u") ==
-        "glissade build x --set cross_section.kind=u-channel ");
-  CHECK(zsh_completes(place, "glissade build x --set mesh.tol") == "glissade build x --set mesh.tolerance=");
+  const std::vector<std::string> typed = {"glissade bu",
+                                          "glissade build --js",
+                                          "glissade build chute.",
+                                          "glissade inspect chute.",
+                                          "glissade build x --set cross_section.kind=u",
+                                          "glissade build x --set mesh.tol"};
+  CHECK(zsh_completes(place, typed) ==
+        std::vector<std::string>{"glissade build ", "glissade build --json ", "glissade build chute.yaml ",
+                                 "glissade inspect chute.stl ",
+                                 "glissade build x --set cross_section.kind=u-channel ",
+                                 "glissade build x --set mesh.tolerance="});
 }

@@ -4,6 +4,7 @@
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -112,6 +113,11 @@ TEST_CASE("every example of --help does what it says") {
       INFO(example);
       if (example.find("--watch") != std::string::npos)
         continue;  // it would not end; watch_test.cpp tries it
+      // Searches of seconds: what is sought is that of the tests of redesigns, too.
+      const bool is_slow =
+          example.find("--for least-load") != std::string::npos ||
+          example.find("redesign designs/hills/garmisch_hs142.yaml --speed") != std::string::npos;
+      if (is_slow && !testing::thorough()) continue;
       const Outcome outcome = run_program("sh", {"-c", find + example}, here);
       INFO(outcome.errors);
       CHECK(outcome.exit_code == 0);

@@ -133,14 +133,14 @@ const std::vector<std::vector<std::string>>& builds() {
 
 TEST_CASE(
     "SIGTERM and, but for a search, Ctrl-C end a build in any step within 0.2 s and leave nothing behind") {
-  // Outside continuous integration one of the two in every second step, by turns.
+  // Outside continuous integration one of the two in every third step, by turns.
   std::size_t turn = 0;
   for (const std::vector<std::string>& arguments : builds()) {
     const TempDir whole;
     for (const std::string& step : steps_of(arguments, whole.path())) {
       ++turn;
       for (const int signal : {SIGTERM, SIGINT}) {
-        if (!testing::thorough() && turn % 4 != (signal == SIGTERM ? 0U : 2U)) continue;
+        if (!testing::thorough() && turn % 6 != (signal == SIGTERM ? 0U : 3U)) continue;
         INFO(arguments[1] << step << ", signal " << signal);
         const TempDir place;
         const Ending ending = interrupted(arguments, place.path(), step, signal);

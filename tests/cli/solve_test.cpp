@@ -66,7 +66,7 @@ TEST_CASE("what is called fastest is never slower than the straight line") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   int compared = 0;
-  const int count = testing::thorough() ? 60 : 24;
+  const int count = testing::thorough() ? 60 : 12;
   for (int i = 0; i < count; ++i) {
     const double mu = random.between(0.0, 0.6);
     const double run = random.between(1.0, 50.0);

@@ -399,15 +399,16 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
     setup.problem.speed_weight = 0.3;
     const Transcription track(setup.mesh);
     const Rows rows(setup.problem, track);
+    KnownStates states(rows);
     CAPTURE(setup.mesh.entry_speed2, setup.mesh.fine.size(), setup.mesh.changes.size());
     Vector equality(rows.equality_count(), 0.0);
     equality[0] = 0.4;
     equality[1] = -0.7;
-    CHECK(hessian_error(setup.z, rows, equality, {}, {}) < 10.0 * kDifferenceError);
+    CHECK(hessian_error(setup.z, rows, states, equality, {}, {}) < 10.0 * kDifferenceError);
     // One row of every limit and ride.
     std::size_t limit = setup.problem.limits.size();
     std::size_t ride = 0;
-    for (const Row& row : rows.candidates(rows.state(setup.z, true), 1e3)) {
+    for (const Row& row : rows.candidates(states.at(setup.z), 1e3)) {
       const bool known = row.limit == limit && row.ride == ride;
       const bool last = row.place + 3 >= track.stations().size();
       if (known && !last && !row.foot) continue;
@@ -415,10 +416,10 @@ TEST_CASE("the Hessian of the Lagrangian is that of its gradient") {
       ride = row.ride;
       CAPTURE(setup.problem.limits[row.limit].name.key(), row.place, row.ride, row.foot);
       const double allowed = row.foot ? kFootError : 10.0 * kDifferenceError;
-      CHECK(hessian_error(setup.z, rows, equality, {row}, {0.9}) < allowed);
+      CHECK(hessian_error(setup.z, rows, states, equality, {row}, {0.9}) < allowed);
     }
     equality.back() = 0.8;
-    CHECK(hessian_error(setup.z, rows, equality, {}, {}) < kFootError);
+    CHECK(hessian_error(setup.z, rows, states, equality, {}, {}) < kFootError);
   }
 }
 

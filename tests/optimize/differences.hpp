@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 /// Derivatives by central differences in the unknowns of a search, for tests.
@@ -50,12 +51,26 @@ double gradient_error(const Function& function, const Vector& z, const Vector& g
   return gradient_errors([&](const Vector& at) { return Vector{function(at)}; }, z, {gradient}).front();
 }
 
+/// States with derivatives of a problem's rows, each made once: tests of one row after the other move the same unknowns.
+class KnownStates {
+ public:
+  explicit KnownStates(const Rows& rows) : rows_(rows) {}
+  const State& at(const Vector& z) {
+    const auto found = all_.find(z);
+    return found != all_.end() ? found->second : all_.emplace(z, rows_.state(z, true)).first->second;
+  }
+
+ private:
+  const Rows& rows_;
+  std::map<Vector, State> all_;
+};
+
 /// Greatest distance of the Lagrangian's Hessian from central differences of its gradient.
-inline double hessian_error(const Vector& at, const Rows& rows, const Vector& equality,
+inline double hessian_error(const Vector& at, const Rows& rows, KnownStates& states, const Vector& equality,
                             const std::vector<Row>& active, const Vector& inequality) {
-  const Matrix hessian = rows.hessian(rows.state(at, true), equality, active, inequality, 1.0);
+  const Matrix hessian = rows.hessian(states.at(at), equality, active, inequality, 1.0);
   const auto slopes = [&](const Vector& z) {
-    const State state = rows.state(z, true);
+    const State& state = states.at(z);
     Vector value;
     Matrix jacobian;
     rows.equalities(state, value, jacobian);

@@ -125,7 +125,8 @@ TEST_CASE("rows of an envelope: the Hessian is that of their gradients where no 
   const Rows rows(setup.problem, track);
   const Vector equality(rows.equality_count(), 0.0);
   Sorts sorts;
-  const State state = rows.state(setup.z, true);
+  KnownStates states(rows);
+  const State& state = states.at(setup.z);
   for (const Row& row : rows.candidates(state, HUGE_VAL)) {
     if (setup.problem.limits[row.limit].measure != Measure::distance) continue;
     if (!row.foot && !row.face && row.place % 7 != 3) continue;
@@ -133,7 +134,7 @@ TEST_CASE("rows of an envelope: the Hessian is that of their gradients where no 
     if (row.foot && std::fabs(rows.value(state, row)) > 0.3) continue;
     ++(row.face ? sorts.faces : row.foot ? sorts.corners : sorts.stations);
     CAPTURE(setup.problem.limits[row.limit].name.key(), row.place, row.edge, row.foot, row.face, row.level);
-    CHECK(hessian_error(setup.z, rows, equality, {row}, {0.9}) <
+    CHECK(hessian_error(setup.z, rows, states, equality, {row}, {0.9}) <
           (row.foot ? kFootError : 10.0 * kDifferenceError));
   }
   CHECK(sorts.stations > 20);

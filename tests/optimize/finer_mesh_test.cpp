@@ -83,8 +83,8 @@ TEST_CASE("beside a straight end the usual pieces lose no more than a time's acc
 
 TEST_CASE("where pieces halved for prices win more than a time's accuracy, their track is the answer") {
   constexpr double kLost = 1e-6;
-  std::vector<Drawn> all{{20250217, 19}, {20250217, 93}, {1, 83}};
-  if (testing::thorough()) all.insert(all.end(), {{1, 21}, {1, 125}, {2, 37}, {2, 83}});
+  std::vector<Drawn> all{{20250217, 19}, {1, 83}};
+  if (testing::thorough()) all.insert(all.end(), {{20250217, 93}, {1, 21}, {1, 125}, {2, 37}, {2, 83}});
   for (const Drawn& drawn : all) {
     CAPTURE(drawn.seed, drawn.index);
     CHECK(loss_of(problem_of(drawn)).lost < kLost);
@@ -159,7 +159,9 @@ TEST_CASE(
 }
 
 TEST_CASE("where such a start has more limits three times as many pieces win little, and it is told") {
-  for (const Drawn& drawn : std::vector<Drawn>{{1, 5}, {2, 74}, {3, 31}, {20250217, 32}}) {
+  std::vector<Drawn> all{{1, 5}, {3, 31}};
+  if (testing::thorough()) all.insert(all.end(), {{2, 74}, {20250217, 32}});
+  for (const Drawn& drawn : all) {
     CAPTURE(drawn.seed, drawn.index);
     const Loss loss = loss_of(problem_of(drawn));
     CAPTURE(loss.lost, loss.told);
@@ -169,8 +171,8 @@ TEST_CASE("where such a start has more limits three times as many pieces win lit
 
 TEST_CASE("what a finer mesh would win is told to be no less than many pieces win") {
   constexpr double kNothing = 1e-6;
-  std::vector<Drawn> all{{20250217, 97}, {20250217, 118}, {20250217, 144}};
-  if (testing::thorough()) all.push_back({2, 1});
+  std::vector<Drawn> all{{20250217, 97}, {20250217, 118}};
+  if (testing::thorough()) all.insert(all.end(), {{20250217, 144}, {2, 1}});
   for (const Drawn& drawn : all) {
     CAPTURE(drawn.seed, drawn.index);
     const Loss loss = loss_of(problem_of(drawn));
@@ -190,6 +192,7 @@ TEST_CASE("nothing is told to be left where nothing is left to win") {
   in_run.limits.highest_curvature_rate = 0.002;
   double before = HUGE_VAL;
   for (const double load : {1.775, 1.8, 1.85, 1.9, 1.975}) {
+    if ((load == 1.8 || load == 1.9) && !testing::thorough()) continue;
     in_run.limits.highest_normal_load = load * kStandardGravity;
     const OptimizeReport report = optimize(in_run).report;
     CAPTURE(load, report.brief());

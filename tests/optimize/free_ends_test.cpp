@@ -187,7 +187,7 @@ TEST_CASE("the least highest load, kept as a limit, needs just the height that i
   Problem gentle = in_run(ObjectiveKind::least_load);
   gentle.finish.kind = FinishKind::level;
   // The closer to the least drop, the longer the search.
-  const double above = testing::thorough() ? 0.2 : 0.8;
+  const double above = testing::thorough() ? 0.2 : 1.2;
   const double height = drop_of(solved(in_run(ObjectiveKind::least_drop))) + above;
   gentle.endpoints = {0.0, height};
   const Optimum least = solved(gentle);
@@ -205,7 +205,8 @@ TEST_CASE("the least highest load, kept as a limit, needs just the height that i
   const double expected =
       price_of(other, LimitId::exit_speed) / price_of(other, LimitId::highest_normal_load);
   CHECK(std::fabs(by_speed / expected - 1.0) < 1e-2);
-  check_is_least(gentle, load);
+  // That no track keeps less is known by the height; by another search, too, where there is time for it.
+  if (testing::thorough()) check_is_least(gentle, load);
 }
 
 TEST_CASE("the least rate of curvature, kept as a limit, needs just the height that it was found from") {
@@ -254,7 +255,7 @@ TEST_CASE("a least load that the slope of the table alone asks for is told as on
   // Where no straight line will do, too, a speed that is exceeded holds nothing back, and has no price.
   problem.limits.entry_slope_angle.lowest = 15.0 * kDegree;
   OptimizeOptions options;
-  options.time_budget = 2.0;
+  options.time_budget = testing::thorough() ? 2.0 : 0.5;
   const Optimum bent = optimize(problem, options);
   REQUIRE(bent.centerline);
   CHECK(bent.report.exit_speed > 20.1);
@@ -384,7 +385,7 @@ TEST_CASE("a straight line that does not reach the speed is not the answer") {
   Problem problem = between_points(ObjectiveKind::least_load);
   problem.limits.exit_speed.lowest = 9.5;  // the straight line gives 8.92
   OptimizeOptions options;
-  options.time_budget = 1.0;
+  options.time_budget = testing::thorough() ? 1.0 : 0.1;
   const Optimum least = optimize(problem, options);
   CHECK(least.report.evaluations > 0);
   CHECK(least.report.message.find("straight line") == std::string::npos);
@@ -400,7 +401,7 @@ TEST_CASE("a least bound is one: by another way to it a track keeps a little mor
     const double above = random.between(1.005, 1.05);
     // Not the first, which takes twice as long as any other; elsewhere than in CI one rate of curvature alone, beside the
     // load above.
-    if (i == 0 || (i != 3 && !testing::thorough())) continue;
+    if (i == 0 || (i != 1 && !testing::thorough())) continue;
     const bool load = i % 2 == 0;
     Problem problem = in_run(load ? ObjectiveKind::least_load : ObjectiveKind::least_curvature_rate);
     problem.limits.slope_angle.highest = slope;
@@ -507,7 +508,7 @@ TEST_CASE(
     "a straight ramp that keeps every limit is never higher than the lowest track, however long its ends") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int count = testing::thorough() ? 24 : 4;
+  const int count = testing::thorough() ? 24 : 2;
   for (int i = 0; i < count; ++i) {
     const double mu = random.between(0.02, 0.35);
     const double speed = random.between(4.0, 25.0);
@@ -545,7 +546,8 @@ TEST_CASE("prices of a ramp are what its drop changes by") {
     changed.limits.exit_speed.lowest = speed;
     return drop_of(solved(changed));
   };
-  const double by_lead = (drop_with(6.01, 10.0) - drop_with(5.99, 10.0)) / 0.02;
+  // From the shorter side alone, to the second order: a longer end takes a search.
+  const double by_lead = (3.0 * drop_of(lowest) - 4.0 * drop_with(5.99, 10.0) + drop_with(5.98, 10.0)) / 0.02;
   CHECK(std::fabs(price_of(lowest, LimitId::lead_out) / by_lead - 1.0) < 1e-3);
   // u^2 = 2 g (S sin(zeta) - mu S cos(zeta)), of a ramp of one length: the price of the speed by hand.
   const double length = lowest.centerline->length();
@@ -554,6 +556,8 @@ TEST_CASE("prices of a ramp are what its drop changes by") {
   CHECK(std::fabs(length - 6.0) < 1e-9);
   CHECK(std::fabs(price_of(lowest, LimitId::exit_speed) / by_hand - 1.0) < 1e-3);
   if (!testing::thorough()) return;
+  const double by_lead_both = (drop_with(6.01, 10.0) - drop_with(5.99, 10.0)) / 0.02;
+  CHECK(std::fabs(price_of(lowest, LimitId::lead_out) / by_lead_both - 1.0) < 1e-3);
   const double by_speed = (drop_with(6.0, 10.01) - drop_with(6.0, 9.99)) / 0.02;
   CHECK(std::fabs(price_of(lowest, LimitId::exit_speed) / by_speed - 1.0) < 1e-3);
 }

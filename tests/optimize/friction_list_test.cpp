@@ -186,7 +186,7 @@ TEST_CASE("friction list: no neighbour of the fastest track is faster, whatever 
       return price;
     };
     int rides = 0;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < (testing::thorough() ? 200 : 50); ++i) {
       const CenterlinePtr other = testing::neighbour(spline, random, random.between(-0.01, 0.01));
       const Motion ride(other, given.body);
       if (!ride.arrived()) continue;

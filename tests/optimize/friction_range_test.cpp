@@ -102,7 +102,7 @@ TEST_CASE("what is told as kept is kept at every friction of the range, whatever
       Problem problem = with_range(random, kind);
       if (kind == ObjectiveKind::blend) problem.objective.exit_speed_weight = 0.05;
       OptimizeOptions options;
-      options.time_budget = testing::thorough() ? 4.0 : 1.0;
+      options.time_budget = testing::thorough() ? 4.0 : 0.5;
       const Optimum optimum = optimize(problem, options);
       CAPTURE(i, static_cast<int>(kind), optimum.report.brief());
       if (!optimum.centerline) continue;
@@ -135,7 +135,7 @@ TEST_CASE("of streams, too, what is told as kept is kept at every friction of th
       problem.limits.speed.highest =
           std::sqrt(2.0 * kGravity * problem.endpoints.drop) * random.between(0.7, 1.0);
       OptimizeOptions options;
-      options.time_budget = testing::thorough() ? 6.0 : 2.0;
+      options.time_budget = testing::thorough() ? 6.0 : 0.7;
       const Optimum optimum = optimize(problem, options);
       CAPTURE(i, static_cast<int>(kind), optimum.report.brief());
       if (!optimum.centerline) continue;

@@ -29,7 +29,7 @@ constexpr int kSteps = 400;
 template <class Function>
 double integral(const Function& function, double from, double to) {
   if (to < from) return -integral(function, to, from);
-  constexpr int kParts = 6;
+  constexpr int kParts = 3;
   double sum = 0.0;
   for (int i = 0; i < kParts; ++i) {
     const double a = from + (to - from) * i / kParts;

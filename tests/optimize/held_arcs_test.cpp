@@ -211,7 +211,7 @@ TEST_CASE(
   std::vector<Case> cases{{{10.0, 5.0}, 0.2, 4.0, 0.2, 1.3, true}, {{20.0, 9.0}, 0.15, 5.0, 0.5, 1.4, true}};
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int i = 0; i < (testing::thorough() ? 40 : 2); ++i) {
+  for (int i = 0; i < (testing::thorough() ? 40 : 1); ++i) {
     const double run = random.between(4.0, 30.0);
     const double drop = run * random.between(0.3, 0.9);
     const double friction = random.between(0.02, 0.25);

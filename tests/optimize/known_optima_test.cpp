@@ -54,8 +54,7 @@ Problem ramp(double mu) {
   return problem;
 }
 
-/// Every limited problem whose optimum is known by hand, with that optimum.
-std::vector<HandCase> hand_cases() {
+std::vector<HandCase> made_by_hand() {
   std::vector<HandCase> cases;
   for (const double wall_drop : {1.3, 1.6, 1.9}) {
     cases.push_back({"a straight wall", ramp(0.0), hand_optima::along_wall(10.0, 5.0, 0.4, wall_drop)});
@@ -79,6 +78,12 @@ std::vector<HandCase> hand_cases() {
   add_radius(0.0, 5.0, {1.38, 0.79, -0.19});
   add_radius(0.0, 7.0, {1.29, 0.34, -0.21});
   add_radius(0.2, 3.0, {1.38, 1.01, -0.34});
+  return cases;
+}
+
+/// Every limited problem whose optimum is known by hand, with that optimum: worked out once.
+const std::vector<HandCase>& hand_cases() {
+  static const std::vector<HandCase> cases = made_by_hand();
   return cases;
 }
 

@@ -241,27 +241,6 @@ TEST_CASE("from rest, a mean slope below the friction angle is out of reach") {
   CHECK(optimum.report.message.find("reach theorem") != std::string::npos);
 }
 
-TEST_CASE(
-    "a track that bends between stretches at a cap says that its bends may lie elsewhere, no other does",
-    "[limits]") {
-  const auto told_at = [](double cap) {
-    Problem problem;
-    problem.endpoints = {12.0, 6.0};
-    problem.body.friction = Friction::from_coefficient(0.2);
-    problem.body.entry_speed = 1.0;
-    problem.body.drag_per_metre = 0.01;
-    problem.limits.smallest_valley_radius = 2.0;
-    problem.limits.smallest_crest_radius = 2.0;
-    problem.limits.speed.highest = cap;
-    const OptimizeReport report = optimize(problem).report;
-    CHECK(report.status == OptimizeStatus::optimal);
-    return report.message;
-  };
-  const std::string same = "every limit holds and no neighbouring track is faster";
-  CHECK(told_at(6.9) == same);
-  CHECK(told_at(6.3595) == same + "; with bends elsewhere at the cap on the speed some 0.2 % may be left");
-}
-
 TEST_CASE("next to the reach limit a search says that it cannot tell tracks apart, and at once") {
   Problem problem;
   problem.body.friction = Friction::from_coefficient(0.2);

@@ -98,8 +98,8 @@ TEST_CASE("mirrored, of another size and elsewhere a problem has the same answer
 
 // Hundreds of descents one after the other: a last digit that differs in one of them leads to another track.
 TEST_CASE("a track that winds is the same wherever the problem lies and whatever its size") {
-  std::vector<std::pair<int, int>> all{{8, 26}};
-  if (testing::thorough()) all.emplace_back(7, 92);
+  std::vector<std::pair<int, int>> all{{7, 458}};
+  if (testing::thorough()) all.insert(all.end(), {{8, 26}, {7, 92}});
   for (const auto& [seed, index] : all) {
     const auto& [problem, optimum] = known(seed, index);
     CAPTURE(seed, index, optimum.report.brief());
@@ -192,8 +192,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a bound that is said to be enough leads to an optimum when it is put in") {
-  std::vector<std::pair<int, int>> all{{7, 207}};
-  if (testing::thorough()) all.insert(all.end(), {{8, 254}, {8, 101}});
+  std::vector<std::pair<int, int>> all{{2, 81}};
+  if (testing::thorough()) all.insert(all.end(), {{7, 207}, {8, 254}, {8, 101}});
   for (const auto& [seed, index] : all) {
     const auto& [problem, none] = known(seed, index);
     CAPTURE(seed, index, none.report.brief());
@@ -364,7 +364,7 @@ TEST_CASE("a corner where no radius is asked for is as tight on one mesh as on t
   problem.objective.kind = ObjectiveKind::exit_speed;
   problem.limits.waypoints = {{4.03, 2.41}};
   problem.limits.slope_angle = {4.1 * kDegree, 58.1 * kDegree};
-  std::vector<double> longest{11.48, 11.489, 11.51, 11.53};
+  std::vector<double> longest{11.489, 11.51};
   if (testing::thorough()) longest = {11.46, 11.47, 11.48, 11.489, 11.5, 11.51, 11.53, 11.6, 14.0};
   double fastest = 0.0;
   for (const double length : longest) {

@@ -58,10 +58,12 @@ double time_of(Problem problem, Passage passage) {
 TEST_CASE("past a box either way is as fast as the better one of both") {
   Random random = testing::seeded_random(20261126);
   INFO("GLISSADE_SEED=" << random.seed());
-  const int count = testing::thorough() ? 60 : 4;
+  const int count = testing::thorough() ? 60 : 8;
   int found = 0;
   for (int i = 0; i < count; ++i) {
     const Problem problem = past_box(random, i);
+    // The first one takes longer over its box than the next ten together, elsewhere than in CI left out.
+    if (i == 0 && !testing::thorough()) continue;
     const double above = time_of(problem, Passage::above);
     const double below = time_of(problem, Passage::below);
     const double either = time_of(problem, Passage::either);

@@ -183,6 +183,7 @@ TEST_CASE("peak wear: no neighbour that keeps the limits wears less at its peak"
         return Vec2{end.run - problem.endpoints.run, end.drop - problem.endpoints.drop};
       };
       const Vec2 off = miss(bow, longer);
+      if (math::hypot(off.x, off.y) < 1e-9) break;
       constexpr double kStep = 1e-6;
       const Vec2 by_bow = (1.0 / kStep) * (miss(bow + kStep, longer) - off);
       const Vec2 by_length = (1.0 / kStep) * (miss(bow, longer + kStep) - off);

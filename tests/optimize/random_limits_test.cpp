@@ -230,7 +230,9 @@ TEST_CASE(
     "random limited problems: every limit is kept, no admissible neighbour is faster, and an independent "
     "search finds no "
     "track where limits are said to contradict each other, and what they would take does") {
-  hold_random_limited(testing_problems::seeded_for_limited(), testing_problems::problem_count(),
+  // Half of those of other tests, elsewhere than in CI.
+  const int problems = testing_problems::problem_count() / (testing::thorough() ? 1 : 2);
+  hold_random_limited(testing_problems::seeded_for_limited(), std::max(1, problems),
                       testing_problems::problems_of(20));
   // Continuous integration draws others: those that a short run has it holds, too.
   constexpr int kShort = 40;
@@ -273,7 +275,7 @@ TEST_CASE("random limited problems where friction changes: no admissible neighbo
 }
 
 TEST_CASE("random limited problems: three times as many pieces win nothing that matters") {
-  const int count = testing::thorough() ? 40 : 12;
+  const int count = testing::thorough() ? 40 : 7;
   const auto of = [](const Problem& problem, const OptimizeReport& report) {
     if (problem.objective.kind == ObjectiveKind::exit_speed) return -report.exit_speed;
     const double weight =

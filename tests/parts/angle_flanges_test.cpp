@@ -156,7 +156,7 @@ TEST_CASE("angle flanges: a bar's volume, middle and depth are those of points s
     INFO("GLISSADE_SEED=" << random.seed());
     double inside = 0.0;
     Vec3 sum;
-    const int points = testing::thorough() ? 60000 : 30000;
+    const int points = testing::thorough() ? 60000 : 15000;
     for (int k = 0; k < points; ++k) {
       const Vec3 point{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y),
                        random.between(0.0, bar.height)};

@@ -148,7 +148,7 @@ TEST_CASE("bar pieces: tubes and flat bars of trestles are cut to what they come
 TEST_CASE("bar pieces: flat bars are as few equal pieces as their stock asks, whatever their measures are") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int run = 0; run < 12; ++run) {
+  for (int run = 0; run < (testing::thorough() ? 12 : 4); ++run) {
     PlateOptions options;
     options.supports.emplace();
     options.supports->ground = {{0.0, -random.between(6.0, 9.0)}};
@@ -237,7 +237,7 @@ TEST_CASE("bar pieces: what is longer than a bar is refused where one piece is a
 TEST_CASE("bar pieces: random angles, pitches and bars make pieces that add up") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int run = 0; run < (testing::thorough() ? 6 : 3); ++run) {
+  for (int run = 0; run < (testing::thorough() ? 6 : 2); ++run) {
     PlateOptions options = with_angles(random.between(0.5, 1.5));
     options.flanges.pitch = random.between(60e-3, 200e-3);
     options.round = RoundMake::mitred;

@@ -130,7 +130,7 @@ TEST_CASE("corners: random tracks, seats and floors fit, add up and are closed")
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   std::size_t tabs = 0;
-  for (int run = 0; run < (testing::thorough() ? 12 : 6); ++run) {
+  for (int run = 0; run < (testing::thorough() ? 12 : 4); ++run) {
     const ClothoidSpline track = testing::random_track(random, {.smallest = 2.0, .bends = 5, .fading = true});
     const double t = random.between(1.5e-3, 8e-3);
     const ChannelMeasures channel{random.between(0.2, 0.8), random.between(0.1, 0.3), t};
@@ -163,7 +163,7 @@ TEST_CASE("corners: random tracks, seats and floors fit, add up and are closed")
       if (fact.quantity == "tab_thicknesses") CHECK(fact.in_units() >= 2.0);
     }
   }
-  CHECK(tabs > (testing::thorough() ? 20 : 10));
+  CHECK(tabs > (testing::thorough() ? 20 : 6));
 }
 
 TEST_CASE("corners: what cannot be made is refused with place, value and bound") {

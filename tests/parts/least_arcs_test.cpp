@@ -80,7 +80,7 @@ TEST_CASE(
     "nearly") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int run = 0; run < (testing::thorough() ? 12 : 3); ++run) {
+  for (int run = 0; run < (testing::thorough() ? 12 : 2); ++run) {
     const Ramp ramp = drawn_ramp(random);
     const Band band = drawn_band(random);
     const std::size_t told = farthest_from_kept(ramp.samples, ramp.stretch, band, false);

@@ -146,7 +146,7 @@ TEST_CASE("master curve: tracks of bodies that come in with a speed begin at the
 TEST_CASE("master curve: lines and arcs of a drawn track stay what they are, with their tangents") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int run = 0; run < (testing::thorough() ? 200 : 20); ++run) {
+  for (int run = 0; run < (testing::thorough() ? 200 : 8); ++run) {
     const ClothoidSpline track = random_segments(random);
     const double tolerance = math::exp(random.between(math::log(3e-5), math::log(5e-3)));
     const MasterCurve curve = fit_arcs(track, {tolerance});
@@ -240,8 +240,8 @@ TEST_CASE("master curve: every shipped design reaches the goal at the tolerance 
         std::pair("ski_jump_inrun_with_limits", 1e-3), std::pair("ski_jump_inrun_track", 1e-3),
         std::pair("toboggan_run", 1e-3), std::pair("toboggan_on_terrain", 1e-3),
         std::pair("toboggan_run_with_mats", 1e-3), std::pair("hills/klingenthal_hs140", 1e-3)}) {
-    // Every other one, elsewhere than in CI.
-    if (number++ % 2 == 1 && !testing::thorough()) continue;
+    // Every third one, elsewhere than in CI.
+    if (number++ % 3 != 0 && !testing::thorough()) continue;
     const Track track = solve(read_design(designs_path(std::string(design) + ".yaml")));
     const MasterCurve curve =
         fit_arcs(*track.centerline, {tolerance, FitSide::both, track.search.has_value()});

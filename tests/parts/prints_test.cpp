@@ -240,7 +240,7 @@ TEST_CASE(
     "prints: random runs, sections and beds come as valid pieces within the bed, their volumes those of the "
     "solid") {
   testing::Random random = testing::seeded_random();
-  for (int k = 0; k < (testing::thorough() ? 8 : 4); ++k) {
+  for (int k = 0; k < (testing::thorough() ? 8 : 3); ++k) {
     const CoulombBrachistochrone track({random.between(0.2, 0.9), random.between(0.15, 0.5)}, kFriction);
     const double thickness = random.between(4e-3, 12e-3);
     const CrossSection section =

@@ -265,7 +265,7 @@ TEST_CASE("sections: random sections, corners and fittings add up, do not clash 
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   std::size_t cutouts = 0;
-  for (int run = 0; run < (testing::thorough() ? 8 : 4); ++run) {
+  for (int run = 0; run < (testing::thorough() ? 8 : 3); ++run) {
     const ClothoidSpline track = testing::random_track(random, {.smallest = 2.0,
                                                                 .largest = 6.0,
                                                                 .crest = -0.6,

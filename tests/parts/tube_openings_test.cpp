@@ -288,7 +288,7 @@ TEST_CASE(
     "tube openings: several of any heights and bolts in one tube or trough leave a solid of their volume") {
   Random random = seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  for (int round = 0; round < (testing::thorough() ? 12 : 4); ++round) {
+  for (int round = 0; round < (testing::thorough() ? 12 : 2); ++round) {
     TroughGore trough{random.between(0.1, 0.4),
                       random.between(2e-3, 5e-3),
                       0.0,

@@ -449,7 +449,7 @@ TEST_CASE("widths: openings are cut where the width does not change, lids lie on
   Random random = seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   int made = 0;
-  const int runs = testing::thorough() ? 8 : 4;
+  const int runs = testing::thorough() ? 8 : 2;
   for (int run = 0; run < runs; ++run) {
     const double wide = random.between(0.3, 0.6);
     const double t = random.between(3e-3, 6e-3);

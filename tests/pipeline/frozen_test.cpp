@@ -98,7 +98,10 @@ std::vector<Case> cases() {
 
 TEST_CASE("a frozen track rides as the track that was found, at its own and at other frictions") {
   const TempDir directory;
+  int number = 0;
   for (const Case& item : cases()) {
+    // Those that are not read back from stations below, elsewhere than in CI, and the one that is no table.
+    if (number++ % 2 == 0 && item.name != kTurnsAtOnce && !testing::thorough()) continue;
     INFO(item.name);
     const Design design = parse_design(item.text, directory / "design.yaml");
     const Track found = solve(design);
@@ -171,6 +174,7 @@ TEST_CASE("stations of a track, read back with slope angles and curvatures, are 
   }
   for (const char* const name : {"sand_ski_ramp.yaml", "ski_jump_inrun.yaml", "toboggan_run.yaml",
                                  "hills/garmisch_hs142.yaml", "powder_chute.yaml"}) {
+    if (number++ % 2 == 1 && !testing::thorough()) continue;
     designs.push_back(read_design(designs_path(name)));
   }
   for (const Design& design : designs) {
@@ -258,17 +262,21 @@ TEST_CASE("what a search of any objective found is solved and judged the same wh
       {fixed, speed + "objective: least_curvature_rate"},
       {fixed, "smallest_radius: 2 m, objective: least_peak_wear", true},
       {fixed, "smallest_radius: 2 m, objective: even_speed", true},
+      {fixed, "smallest_radius: 2 m, objective: least_wear", true},
       {edge + "0 deg}", high + "waypoints: [[-5 m, 1.6 m]], objective: least_drop"},
       {edge + "180 deg}", high + "waypoints: [[5 m, 1.6 m]], objective: least_drop"},
       {edge + "30 deg}",
        high + "waypoints: [[-5 m, 1.6 m]], half_planes: [{line: [[-40 m, -1 m], [1 m, -1 m]], stay: above}], "
               "stay_above: [{line: [[-40 m, -2 m], [1 m, -2 m]]}], objective: least_drop"}};
+  constexpr const char* kSlow[] = {"least_curvature_rate", "least_peak_wear", "even_speed"};
   const TempDir directory;
-  int number = 0;
   for (const Sought& sought : all) {
-    // Every other one, elsewhere than in CI.
-    if (number++ % 2 == 1 && !testing::thorough()) continue;
     INFO(sought.track << ", " << sought.limits);
+    // Searches of many seconds in CI alone; least loads stand for least bounds, and another objective for streams.
+    const bool is_slow = std::any_of(std::begin(kSlow), std::end(kSlow), [&](const char* const objective) {
+      return sought.limits.find(objective) != std::string::npos;
+    });
+    if (is_slow && !testing::thorough()) continue;
     const std::string of_stream =
         "body: {friction_coefficient: {low: 0.28, nominal: 0.3, high: 0.32}, entry_speed: 2 m/s}\n"
         "stream: {mass_flow: 60 t/h, bulk_density: 780 kg/m^3}\n"
@@ -376,8 +384,8 @@ TEST_CASE(
   for (const std::string& text :
        {near(6.0, 1.9, "friction_angle: 17 deg"), near(3.0, 0.927, "friction_coefficient: 0.3"),
         near(3.0, 0.909, "friction_coefficient: 0.3"), near(3.0, 0.900001, "friction_coefficient: 0.3")}) {
-    // Outside CI the nearest of those that arrive by more than rounding.
-    if (text.find("0.909") == std::string::npos && !testing::thorough()) continue;
+    // Outside CI one of them: the nearer, the more rows.
+    if (text.find("0.927") == std::string::npos && !testing::thorough()) continue;
     INFO(text);
     const TempDir directory;
     const Design design = parse_design(text, "near.yaml");

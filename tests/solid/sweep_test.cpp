@@ -563,7 +563,10 @@ TEST_CASE("sweep: max_deviation is that of the worst place of a step, beside a v
       {5.4, 3.0, 0.1, CrossSection::u_channel(0.3, 0.25, 0.02), 5e-3},
       {2.0, 1.6, 0.2, CrossSection::trapezoid(0.3, 0.1, Angle::from_degrees(30.0), 0.01), 2e-3},
       {9.0, 6.0, 0.25, CrossSection::half_pipe(0.5, 0.05), 8e-3}};
+  int number = 0;
   for (const Task& task : tasks) {
+    // Every other one, elsewhere than in CI.
+    if (number++ % 2 == 0 && !testing::thorough()) continue;
     const CoulombBrachistochrone track(Endpoints{task.run, task.drop},
                                        Friction::from_coefficient(task.friction));
     SweepOptions options;
@@ -623,7 +626,7 @@ TEST_CASE("sweep: facets that follow a curve meet at no more than the largest ki
   const CoulombBrachistochrone track(Endpoints{3.0, 2.0}, Friction::from_coefficient(0.2));
   for (const CrossSection& section :
        {CrossSection::u_channel(0.4, 0.1, 0.004), CrossSection::half_pipe(0.4, 0.01)}) {
-    for (const double degrees : {2.0, testing::thorough() ? 0.25 : 0.5}) {
+    for (const double degrees : {2.0, testing::thorough() ? 0.25 : 1.0}) {
       SweepOptions options;
       options.tolerance = 2e-3;
       options.largest_kink = Angle::from_degrees(degrees);

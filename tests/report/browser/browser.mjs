@@ -19,14 +19,20 @@ const SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 // A browser without a graphics card draws every pixel by hand: where the size does not matter, a small window.
 export const SMALL = { viewport: { width: 640, height: 480 } };
 
-// Gives a function that builds a design below `work`, and tells its report page and what --json says.
+// Gives a function that builds a design below `work`, once, and tells its report page and what --json says.
 export function builder(program, work) {
-  return (design, ...options) => {
+  const built = new Map();
+  const build = (design, options) => {
     const folder = path.join(work, path.basename(design, ".yaml") + options.join("").replace(/\W/g, ""));
     const json = execFileSync(program, ["build", design, "-o", folder, "--json", ...options], { encoding: "utf8" });
     const report = readdirSync(folder).find((name) => name.endsWith(".report.html"));
     assert.ok(report, `no report page among ${readdirSync(folder)}`);
     return { file: path.join(folder, report), json: JSON.parse(json) };
+  };
+  return (design, ...options) => {
+    const key = [design, ...options].join("\n");
+    if (!built.has(key)) built.set(key, build(design, options));
+    return built.get(key);
   };
 }
 

@@ -39,10 +39,10 @@ describe("every shipped design", () => {
   });
   after(() => Promise.all([turning.page.close(), still.page.close()]));
 
-  // Outside continuous integration every eighth of them; the second of each two is turned in the view, which takes most of
+  // Outside continuous integration every thirteenth of them; the second of each two is turned in the view, which takes most of
   // the time where what a graphics card would draw is drawn by hand, the other is the still picture that readers without
   // WebGL meet.
-  const every = process.env.CI ? 1 : 8;
+  const every = process.env.CI ? 1 : 13;
   for (const [i, name] of shipped.filter((_, at) => at % every === 0).entries()) {
     test(`${name}: the page opens without complaint and tells what --json tells`, async () => {
       const { file, json } = name === "grain_chute.yaml" ? chute : build(path.join(designs, name));
@@ -281,9 +281,16 @@ describe("solid", () => {
 });
 
 describe("a range of friction", () => {
+  // One page for all of them, each with a design of its own.
+  let view;
+  before(async () => {
+    view = await open(plain, build(path.join(designs, "grain_chute_with_limits.yaml")).file, SMALL);
+  });
+  after(() => view.page.close());
+
   test("a ride at another friction is held against the nominal one, not against an optimum of another friction", async () => {
-    const { file, json } = build(path.join(designs, "grain_chute_with_limits.yaml"));
-    const { page, complaints } = await open(plain, file, SMALL);
+    const { json } = build(path.join(designs, "grain_chute_with_limits.yaml"));
+    const { page, complaints } = view;
     const told = () => page.locator("#summary dl.tiles").textContent();
     assert.match(await told(), /the exact optimum without limits/);
     for (const level of ["low", "high"]) {
@@ -295,12 +302,12 @@ describe("a range of friction", () => {
     }
     assert.ok(json.rides[0].travel_time_s < json.travel_time_s);
     assert.deepEqual(complaints, []);
-    await page.close();
   });
 
   test("task, checks and ways through the air are those of the friction that is shown", async () => {
     const { file, json } = build(path.join(designs, "ore_transfer.yaml"));
-    const { page, complaints } = await open(plain, file, SMALL);
+    const { page, complaints, visit } = view;
+    await visit(file);
     const summary = () => page.locator("#summary").textContent();
     const flights = () => page.evaluate(() => [...document.querySelectorAll("#profile path.flight")].map((path) => path.getAttribute("d")));
     const nominal = await flights();
@@ -314,12 +321,12 @@ describe("a range of friction", () => {
     assert.match(text, new RegExp(`lowest normal load ${digits(high.min_normal_load_m_per_s2 / 9.80665)}\u00a0g`));
     assert.notDeepEqual(await flights(), nominal);
     assert.deepEqual(complaints, []);
-    await page.close();
   });
 
   test("the numbers behind a check follow the units", async () => {
     const { file, json } = build(path.join(designs, "ore_transfer.yaml"));
-    const { page } = await open(plain, file, SMALL);
+    const { page, visit } = view;
+    await visit(file);
     const units = page.locator("header label", { hasText: "Units" }).locator("select");
     await units.selectOption("mm, m/s");
     const text = await page.locator("#summary .checks").textContent();
@@ -327,7 +334,6 @@ describe("a range of friction", () => {
     await units.selectOption("m, m/s, loads in m/s\u00b2");
     assert.match(await page.locator("#summary .checks").textContent(),
       new RegExp(`lowest normal load ${Number(json.min_normal_load_m_per_s2.toPrecision(4))}\u00a0m/s\u00b2`));
-    await page.close();
   });
 });
 
