@@ -15,7 +15,7 @@
 #include "optimize/conflicts/mean_slope.hpp"
 #include "optimize/least_bound/least_bound.hpp"
 #include "optimize/least_bound/least_peak.hpp"
-#include "optimize/optimize_briefly.hpp"
+#include "optimize/least_bound/optimize_briefly.hpp"
 #include "optimize/prices/prices.hpp"
 #include "optimize/problem/changed_bound.hpp"
 #include "optimize/problem/passages.hpp"
