@@ -15,7 +15,7 @@
 #include "optimize/conflicts/mean_slope.hpp"
 #include "optimize/least_bound/least_bound.hpp"
 #include "optimize/least_bound/least_peak.hpp"
-#include "optimize/optimize_briefly.hpp"
+#include "optimize/least_bound/optimize_briefly.hpp"
 #include "optimize/prices/prices.hpp"
 #include "optimize/problem/changed_bound.hpp"
 #include "optimize/problem/passages.hpp"
@@ -419,12 +419,12 @@ std::optional<double> left_to_win(const Candidate& best, const PricedLimits& pri
   // Jumps lie beside where they belong by some twentieth of their room: drawn ones win a hundredth to a twentieth of what
   // their first order promises through all of it.
   constexpr double kOfRoom = 0.05;  // measured
-  if (!best.finer_mesh_wins) return std::nullopt;
+  if (!best.ahead.finer_mesh_wins) return std::nullopt;
   const Found& found = *best.found;
   const double size = std::fabs(found.objective);
   double halving = (std::max(0.0, found.objective - priced.least) + priced.rest) / size;
-  if (!on_finest) halving = std::max(halving, kAgain * *best.finer_mesh_wins);
-  return halving + lost_to_margins(*best.problem, found) / size + kOfRoom * best.moves_promise +
+  if (!on_finest) halving = std::max(halving, kAgain * *best.ahead.finer_mesh_wins);
+  return halving + lost_to_margins(*best.problem, found) / size + kOfRoom * best.ahead.moves_promise +
          best.sharper_crest_wins;
 }
 
@@ -464,7 +464,7 @@ void tell_track(Course& course, const OptimizeOptions& options, SearchControl& c
   PricedLimits priced;
   {
     const Candidate& known = course.best();
-    priced = priced_limits(*known.problem, *known.found, known.multipliers_ahead, options, control);
+    priced = priced_limits(*known.problem, *known.found, known.ahead.multipliers, options, control);
   }
   report.active = std::move(priced.limits);
   const Course::Onto onto = priced.better ? course.onto(std::move(*priced.better)) : Course::Onto::untried;

@@ -12,7 +12,7 @@
 #include "optimize/least_bound/bound_bracket.hpp"
 #include "optimize/least_bound/least_kept.hpp"
 #include "optimize/least_bound/most_reached.hpp"
-#include "optimize/optimize_briefly.hpp"
+#include "optimize/least_bound/optimize_briefly.hpp"
 #include "optimize/search/patience.hpp"
 #include "optimize/search/starts.hpp"
 #include "referee/judgement.hpp"

@@ -190,7 +190,7 @@ class LeastPeak {
     report.travel_time = candidate.judgement.travel_time;
     report.exit_speed = candidate.judgement.exit_speed;
     report.first_order_residual = candidate.found->residual;
-    report.finer_mesh_wins = candidate.finer_mesh_wins;
+    report.finer_mesh_wins = candidate.ahead.finer_mesh_wins;
     report.checks = check_limits(asked_, candidate.track);
     const bool flies = best.end.peak <= hardly_any_;
     report.active = flies ? std::vector<ActiveLimit>{} : prices(best.end);

@@ -1,9 +1,11 @@
 // What the search does where its own starts led to no optimum, or to tracks that wind: it looks once more.
 
 #include "optimize/mesh/refined_knots.hpp"
+#include "optimize/mesh/refinement.hpp"
 #include "optimize/mesh/switches.hpp"
 #include "optimize/search/hooked_starts.hpp"
 #include "optimize/search/searcher.hpp"
+#include "optimize/search/settling.hpp"
 #include "optimize/search/shifted_bends.hpp"
 #include "optimize/search/starts.hpp"
 
@@ -34,8 +36,8 @@ Candidate Searcher::from_scattered(Candidate best) {
   std::vector<Found> tracks;
   for (const GuessCurve& start : scattered_starts(*rough)) {
     if (control_.stop()) break;
-    begin_margins(*rough);
-    aim_at(kCoarseTolerance, 5);
+    descents_.begin_margins(*rough);
+    descents_.aim_at(kCoarseTolerance, 5);
     Found found = coarsely(*rough, start, kMiddlePieces);
     const bool may_win = found.feasible(kNearlyFeasible) && found.objective < best.found->objective;
     if (may_win) tracks.push_back(std::move(found));
@@ -46,7 +48,8 @@ Candidate Searcher::from_scattered(Candidate best) {
   for (Found& track : tracks) {
     if (best.stopped) break;
     Candidate end = begun_again(best);
-    const Found found = laid_anew(*end.rough, on_finer_meshes(*end.rough, *end.rough, std::move(track)));
+    const Found found =
+        descents_.laid_anew(*end.rough, on_finer_meshes(*end.rough, *end.rough, std::move(track)));
     settle(end, found);
     if (!end.kept && !end.stopped) mend_any(end, found.track->mesh(), found.z);
     const bool stopped = end.stopped;
@@ -84,11 +87,12 @@ std::shared_ptr<const ScaledProblem> with_looser(const std::shared_ptr<const Sca
 Candidate Searcher::from_loose_caps(Candidate best) {
   const std::vector<std::size_t> caps = caps_on_speed(*best.rough);
   if (caps.empty() || best.stopped) return best;
-  begin_margins(*best.rough);
+  descents_.begin_margins(*best.rough);
   std::optional<Tightened> track = tightened(best.rough, caps);
   if (!track) return best;
   Candidate end = begun_again(best);
-  settle(end, laid_anew(*end.rough, on_finer_meshes(*end.rough, *track->problem, std::move(track->found))));
+  settle(end, descents_.laid_anew(*end.rough,
+                                  on_finer_meshes(*end.rough, *track->problem, std::move(track->found))));
   const bool stopped = end.stopped;
   if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
   best.stopped = stopped;
@@ -112,12 +116,12 @@ std::optional<Searcher::Tightened> Searcher::tightened(const std::shared_ptr<con
     // Shorter and shorter steps: bends come up all at once, where the caps are nearly met.
     const double next_root = std::max(0.0, root - step);
     Tightened next{with_looser(rough, caps, kMostShare * next_root * next_root), {}};
-    aim_at(kCoarseTolerance, 8);
+    descents_.aim_at(kCoarseTolerance, 8);
     const Mesh mesh =
         mesh_with(*next.problem, refined_knots(*track.found.track, track.found.z, {}, kFinerPieces),
                   core_length_of(track.found));
     const Vector beginning = fit(curve_of(*track.found.track, track.found.z), Transcription(mesh));
-    next.found = minimise(*next.problem, mesh, beginning, margins_, control_, &track.found);
+    next.found = descents_.minimised(*next.problem, mesh, beginning, &track.found);
     const double slower = next.found.objective - track.found.objective;
     if (next.found.feasible(kNearlyFeasible) && slower <= kMostSlower * std::fabs(track.found.objective)) {
       track = std::move(next);
@@ -137,15 +141,15 @@ std::vector<Found> Searcher::tracks_with_hooks(const ScaledProblem& problem) {
   std::vector<Found> tracks;
   for (const GuessCurve& start : hooked_starts(problem)) {
     if (control_.stop()) break;
-    begin_margins(problem);
-    aim_at(kCoarseTolerance, 12);
+    descents_.begin_margins(problem);
+    descents_.aim_at(kCoarseTolerance, 12);
     const Mesh mesh =
         mesh_with(problem, graded_knots(start, kPieces, before_core / start.length), start.length);
     const Vector beginning = fit(start, Transcription(mesh));
-    std::optional<Found> found = minimise(problem, mesh, beginning, margins_, control_);
-    if (!found->feasible(kNearlyFeasible)) found = rescued(problem, mesh, beginning);
+    std::optional<Found> found = descents_.minimised(problem, mesh, beginning);
+    if (!found->feasible(kNearlyFeasible)) found = descents_.rescued(problem, mesh, beginning);
     if (!found) continue;
-    found = laid_anew(problem, on_finer_meshes(problem, problem, *std::move(found)));
+    found = descents_.laid_anew(problem, on_finer_meshes(problem, problem, *std::move(found)));
     const bool is_known = std::any_of(tracks.begin(), tracks.end(), [&](const Found& track) {
       constexpr double kSame = 1e-6;  // accuracy: that of a time
       return std::fabs(track.objective - found->objective) <= kSame * std::fabs(track.objective);
@@ -173,7 +177,7 @@ Candidate Searcher::from_hooks(Candidate best) {
     Candidate end = begun_again(best);
     settle(end, std::move(track));
     const bool may_win = end.kept && !end.stopped && wins(end.found->objective, kMuch);
-    if (may_win && !is_optimum(*end.found)) end = on_other_meshes(std::move(end), false);
+    if (may_win && !descents_.is_optimum(*end.found)) end = on_other_meshes(std::move(end), false);
     const bool stopped = end.stopped;
     const bool takes = end.kept && is_ahead(end, best, options_.tolerance);
     const bool pays = takes && wins(end.found->objective, kPays);
@@ -206,7 +210,7 @@ Candidate Searcher::with_shifted_bends(Candidate best, const Vector& shares) {
   }
   if (!shifted) return best;
   Candidate end = begun_again(best);
-  settle(end, laid_anew(*end.rough, std::move(*shifted)));
+  settle(end, descents_.laid_anew(*end.rough, std::move(*shifted)));
   const bool stopped = end.stopped;
   if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
   best.stopped = stopped;
@@ -218,11 +222,12 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
   constexpr int kMostSteps = 6;           // budget
   constexpr double kPays = 1e-6;          // accuracy: that of a time
   constexpr int kMostEvaluations = 6000;  // budget: twice what a hard search takes
-  begin_margins(problem);
+  descents_.begin_margins(problem);
   const int begun = control_.evaluations;
   const auto is_spent = [&] { return control_.stop() || control_.evaluations - begun > kMostEvaluations; };
   // What is gone too fast between stations would be won by bends that put stations elsewhere.
-  Found best = held_between(problem, known);
+  Settling settling(problem, descents_);
+  Found best = settling.held_between(known);
   std::vector<Vector> tried;  // the same beginnings come back where stretches are short
   const auto wins = [&](std::size_t bend, double share) {
     const std::vector<Span> stretches = stretches_at_cap(problem, best);
@@ -234,12 +239,13 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
     if (mesh.knots.size() != begun_with.mesh.knots.size()) return false;  // friction changes elsewhere, too
     mesh.fine = begun_with.mesh.fine;
     mesh.fine_turns = begun_with.mesh.fine_turns;
-    aim_at(kAimed * options_.tolerance, 3);
-    Found next = minimise(problem, mesh, begun_with.z, margins_, control_);
+    descents_.aim_at_optimum(3);
+    Found next = descents_.minimised(problem, mesh, begun_with.z);
     const auto is_better = [&] {
-      return is_optimum(next) && best.objective - next.objective > kPays * std::fabs(best.objective);
+      return descents_.is_optimum(next) &&
+             best.objective - next.objective > kPays * std::fabs(best.objective);
     };
-    if (is_better()) next = held_between(problem, std::move(next));
+    if (is_better()) next = settling.held_between(std::move(next));
     const bool does = is_better();
     if (!does) return false;
     best = std::move(next);
@@ -255,7 +261,7 @@ std::optional<Found> Searcher::bends_shifted(const ScaledProblem& problem, const
         if (steps > 0) break;
       }
       // What follows loads went along; here and there it may lie better now.
-      if (steps > 0) best = followed(problem, std::move(best));
+      if (steps > 0) best = settling.followed(std::move(best));
       won = won || steps > 0;
     }
   }
@@ -303,13 +309,58 @@ Candidate Searcher::from_promising(const Candidate& known) {
 
 bool Searcher::ends_better(const Mesh& mesh, const Vector& z, Candidate& best) {
   Candidate end = begun_again(best);
-  aim_at(kAimed * options_.tolerance, 12);
-  Found next = laid_anew(*end.rough, on_mesh(*end.rough, mesh, z, begun_with(best)));
+  descents_.aim_at_optimum(12);
+  Found next = descents_.laid_anew(*end.rough, descents_.on_mesh(*end.rough, mesh, z, begun_with(best)));
   if (next.feasible(kNearlyFeasible)) settle(end, std::move(next));
   best.stopped = end.stopped;
   if (!end.kept || !is_ahead(end, best, options_.tolerance)) return false;
   best = std::move(end);
   return true;
+}
+
+Candidate Searcher::with_sharper_crest(Candidate best) {
+  constexpr int kMostRounds = 8;    // budget
+  constexpr double kPays = 5e-7;    // accuracy: half that of a time
+  constexpr double kNearly = 1e-3;  // accuracy: half its square is half that of a time
+  constexpr double kMuch = 2e-6;    // taste: worth a descent that takes its time
+  const ScaledProblem& problem = *best.problem;
+  if (!starts_with_crest(problem) || !best.kept || best.stopped || !descents_.is_optimum(*best.found))
+    return best;
+  // One that the last digits keep from being an optimum may lead to one that is.
+  Candidate last = best;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Found known = *last.found;
+    const MeshTrack sharper = with_shorter_beginning(*known.track, known.z);
+    const auto next_from = [&](bool is_close) {
+      descents_.set_margins(known.rows->margins());
+      descents_.aim_at_optimum(0);
+      control_.is_close = is_close;
+      Found next = descents_.minimised(problem, sharper.mesh, sharper.z, &known);
+      const bool goes_on = !next.stopped && next.residual <= kNearly && next.feasible(kNearlyFeasible) &&
+                           next.objective < known.objective;
+      last.kept = false;
+      last.found.reset();
+      if (goes_on) mending_.mend(last, next, best.ahead, sharper.mesh.extra_breaks);
+      control_.is_close = false;
+      return goes_on ? (known.objective - next.objective) / std::fabs(known.objective) : 0.0;
+    };
+    const auto is_sharper = [&](double residual) {
+      return last.kept && !last.stopped && last.found->residual <= residual &&
+             last.found->objective < known.objective;
+    };
+    double won = next_from(true);
+    if (!is_sharper(kNearly) || (!is_sharper(options_.tolerance) && won > kMuch))
+      won = std::max(won, next_from(false));
+    // Each quarter wins half of what is left.
+    if (is_sharper(options_.tolerance)) {
+      best = last;
+      best.sharper_crest_wins = won;
+    } else {
+      best.sharper_crest_wins = std::max(best.sharper_crest_wins, 2.0 * won);
+    }
+    if (!is_sharper(kNearly) || won < kPays) break;
+  }
+  return best;
 }
 
 }  // namespace glissade::optimizer

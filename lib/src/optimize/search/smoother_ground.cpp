@@ -96,7 +96,7 @@ class DrawnBack {
     const MeshTrack begun = next_of(problem, left);
     Searcher searcher(problem, options_, control_, progress_);
     Searcher::Stage stage = searcher.carried_along(passages_, begun.mesh, begun.z);
-    const bool arrives = !stage.found.stopped && stage.found.feasible(Searcher::kNearlyFeasible);
+    const bool arrives = !stage.found.stopped && stage.found.feasible(kNearlyFeasible);
     return arrives && take(stage.found, *stage.candidate.rough, left);
   }
 
