@@ -213,7 +213,6 @@ Candidate Searcher::mended(const Passages& passages, const Mesh& mesh, const Vec
 }
 
 void Searcher::mend_any(Candidate& candidate, const Mesh& mesh, const Vector& z) {
-  ahead_ = {};
   mending_.mend_any(candidate, mesh, z);
 }
 
@@ -239,7 +238,7 @@ Candidate Searcher::from_known() {
       Found found = known;
       found.stopped = true;
       control_.any_track = any;
-      mending_.mend(candidate, descents_.exactly(*candidate.problem, std::move(found)), ahead_);
+      mending_.mend(candidate, descents_.exactly(*candidate.problem, std::move(found)), {});
       control_.any_track = false;
     }
   }
@@ -294,9 +293,8 @@ Found Searcher::coarsely(const ScaledProblem& problem, const GuessCurve& start, 
 }
 
 void Searcher::refine(Candidate& candidate, Found found, bool unlimited) {
-  ahead_ = {};
   if (unlimited) {
-    mending_.mend(candidate, std::move(found), ahead_);
+    mending_.mend(candidate, std::move(found), {});
     return;
   }
   const ScaledProblem& problem = *candidate.rough;
@@ -319,7 +317,6 @@ void Searcher::settle(Candidate& candidate, Found begun) {
   Settling settling(problem, descents_);
   Settled track = settling.settled(std::move(begun));
   for (const Found& stage : track.on_the_way) remember(candidate, stage);
-  ahead_ = track.ahead;
   const auto mend_on = [&](Candidate& end_of, Found end) {
     if (!end.stopped) end = descents_.laid_anew(problem, std::move(end));
     end_of.rough_found = end;

@@ -151,7 +151,6 @@ class Searcher {
   /// As of from_known(), the best ones first.
   std::vector<std::pair<Candidate, Found>> known_;
   std::optional<double> to_beat_;  ///< objective of the best track by other ways
-  Ahead ahead_;                    ///< as last looked at, which is what from_known() knows
   Descents descents_;
   Mending mending_;
 };
