@@ -199,12 +199,12 @@ TEST_CASE("a largest deviation that is asked for is kept, by the smoothest curve
   CHECK(sharpest_change(loose) < sharpest_change(tight));
 }
 
-TEST_CASE("a deviation that no smooth curve keeps is refused, with the least that one does") {
+TEST_CASE("a deviation that no curve found keeps is refused, with the least that one does") {
   // More points than knots, and noise in all of them.
   Random random(3);
   CHECK_THAT(refusal(sampled(easy_track(), 140, 1e-3, random), {1e-9}),
-             Contains("max_deviation: no smooth curve stays within") && Contains("of all 140 points") &&
-                 Contains("The nearest one found comes within"));
+             Contains("max_deviation: no smooth curve was found within") && Contains("of all 140 points") &&
+                 Contains("the nearest comes within"));
 }
 
 TEST_CASE("a profile that leads to the left is mirrored, and begins where its first point is") {

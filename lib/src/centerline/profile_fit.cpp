@@ -312,9 +312,10 @@ Shape Fitter::within(double max_deviation) {
     return near_enough;
   }
   throw InfeasibleError({"",
-                         "max_deviation: no smooth curve stays within " + length_text(max_deviation) +
+                         "max_deviation: no smooth curve was found within " + length_text(max_deviation) +
                              " of all " + std::to_string(points_->size()) + " points",
-                         "The nearest one found comes within " + length_text(nearest) + ".",
+                         "Of the curves tried, from stiff to free, the nearest comes within " +
+                             length_text(nearest) + ".",
                          "a larger max_deviation, or a look at the points that lie farthest off"});
 }
 
