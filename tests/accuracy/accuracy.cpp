@@ -426,6 +426,40 @@ Section waves() {
   return section;
 }
 
+Section rounded_waves() {
+  Section section{
+      "Waves from points rounded to 1 mm, 4 phases (smallest radius, and what of it the range leaves out; "
+      "relative)",
+      {}};
+  struct Kind {
+    int periods;
+    int count;
+    double bound;
+  };
+  const std::vector<Kind> kinds = {{1, 60, 0.02},  {1, 400, 0.02}, {3, 60, 0.2},   {3, 120, 0.05},
+                                   {3, 400, 0.05}, {5, 60, 0.1},   {5, 120, 0.05}, {5, 400, 0.05},
+                                   {8, 120, 0.1},  {8, 200, 0.1},  {8, 300, 0.05}, {8, 400, 0.05},
+                                   {9, 400, 0.05}, {12, 120, 0.1}, {12, 200, 0.1}, {12, 400, 0.05}};
+  constexpr double kLeftOut = 0.01;
+  for (const Kind& kind : kinds) {
+    const std::string name = fmt::format("{} periods, {} points", kind.periods, kind.count);
+    Line radius = line(name + ": radius", kind.bound);
+    Line outside = line(name + ": beyond the range", kLeftOut);
+    for (const double phase : {0.0, 0.7, 1.9, 3.4}) {
+      const testing::RoundedWave wave{kind.periods, kind.count, phase};
+      const FittedProfile profile(wave.points());
+      const double truth = 1.0 / wave.smallest_radius();
+      const double own = testing::largest_curvature(profile.curve());
+      const CurvatureRange range = profile.largest_curvature().value_or(CurvatureRange{own, own});
+      radius.add(relative_error(1.0 / own, 1.0 / truth));
+      outside.add(std::max({0.0, range.least / truth - 1.0, 1.0 - range.greatest / truth}));
+    }
+    section.lines.push_back(radius);
+    section.lines.push_back(outside);
+  }
+  return section;
+}
+
 Section broken_profiles() {
   Section section{"Profiles whose curvature jumps, fitted to exact points (relative)", {}};
   for (const Family& family : broken_families()) {
@@ -454,7 +488,8 @@ std::vector<Section> sections(bool all) {
   std::vector<Section> result{fastest_track(), flying_start(), constant_speed_curve(),
                               given_tracks(),  referee(),      fitted_profiles()};
   if (!all) return result;
-  for (Section (*const section)() : {waves, broken_profiles, noisy_profiles}) result.push_back(section());
+  for (Section (*const section)() : {waves, rounded_waves, broken_profiles, noisy_profiles})
+    result.push_back(section());
   return result;
 }
 

@@ -241,6 +241,12 @@ TEST_CASE("limits that contradict each other are named with the smallest relaxat
                                  Contains("each alone would do"));
   const json report = json::parse(outcome.output);
   CHECK(report["status"] == "infeasible");
+  CHECK(report["travel_time_s"].is_null());
+  // The straight line knows no limits.
+  const Outcome without = solve(file, {"--set", "limits={}", "--set", "body.drag=0.0013 1/m", "--json"});
+  const json straight = json::parse(without.output)["straight_travel_time_s"];
+  REQUIRE(straight.is_number());
+  CHECK(report["straight_travel_time_s"] == straight);
   const json& relaxations = report["search"]["relaxations"];
   REQUIRE(relaxations.size() >= 2);
   for (const json& relaxation : relaxations) {

@@ -161,6 +161,12 @@ TEST_CASE("one value under the key of a list of frictions is told its own key fi
              Contains("Try: friction_angle: {low: 4 deg, nominal: 5 deg, high: 9 deg}" + list));
   CHECK_THAT(problems_of_friction("{low: 4, high: 9}"),
              Contains("Try: friction_angle: {low: 4 deg, nominal: 6.5 deg, high: 9 deg}" + list));
+  // Those of an item of the list, without its place.
+  CHECK_THAT(problems_of_friction("{coefficient: 0.05}"), Contains("Try: friction_coefficient: 0.05" + list));
+  CHECK_THAT(problems_of_friction("{angle: 3 deg}"), Contains("Try: friction_angle: 3 deg" + list));
+  CHECK_THAT(problems_of_friction("{angle: 1}"), Contains("Try: friction_angle: 1 deg" + list));
+  CHECK_THAT(problems_of_friction("{lowest: 0.08, highest: 0.16}"),
+             Contains("Try: friction_coefficient: {low: 0.08, nominal: 0.12, high: 0.16}" + list));
   CHECK_THAT(problems_of_friction("{value: 0.3}"), Contains("Try: friction_coefficient: 0.3" + list));
   CHECK_THAT(problems_of_friction("{from: 0, angle: 3}"), Contains("Try: [{from: 0 m, angle: 3 deg}"));
   CHECK_THAT(problems_of_friction("much"), Contains("Try: [{from: 0 m, angle: 3 deg}"));

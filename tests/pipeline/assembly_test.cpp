@@ -128,18 +128,48 @@ TEST_CASE("binary STL is too coarse for wide solids as it is for long ones, and 
                   ", wall_height: 300 mm, thickness: 5 mm}\nmesh: {tolerance: 1 mm}\nexport: [stl]\n");
     // Fine enough that single precision cannot hold it, whatever the width.
     const double half = 0.5 * std::stod(width);
-    const auto built_at = [&](double tolerance) {
-      const Design design =
-          read_design(place / "wide.yaml", {{"mesh.tolerance", exact_text(tolerance) + " m"}});
+    const auto built_at = [&](const std::string& tolerance) {
+      const Design design = read_design(place / "wide.yaml", {{"mesh.tolerance", tolerance}});
       return assemble(design, solve(design));
     };
-    for (const double share : {0.3, 1.0, 2.0}) {
+    std::string told;
+    for (const double share : {0.1, 0.3, 0.9}) {
       CAPTURE(share);
-      CHECK_THROWS_WITH(built_at(share * 0x1p-23 * half), Contains("is finer than binary STL can hold"));
+      try {
+        static_cast<void>(built_at(exact_text(share * 0x1p-23 * half) + " m"));
+        FAIL("accepted");
+      } catch (const InputError& error) {
+        const std::string said = error.what();
+        CHECK_THAT(said, Contains("is finer than binary STL can hold"));
+        told = said.substr(said.find("or a tolerance of ") + 18);
+      }
     }
-    // Twice what three axes may move.
-    CHECK_NOTHROW(built_at(2.0 * std::sqrt(3.0) * 0x1p-23 * std::hypot(half + 0.01, 9.0)));
+    CAPTURE(told);
+    CHECK_NOTHROW(built_at(told));
   }
+}
+
+TEST_CASE(
+    "coordinates of the site are taken to half of the tolerance, as its steps there are and not as three "
+    "axes'") {
+  const TempDir place;
+  put_bytes(place / "far.yaml",
+            "glissade: 1\ntrack: {start: {x: 500000 m, z: 6.25 m}, finish: {x: 500005.5 m, z: 1.125 m}}\n"
+            "body: {friction_angle: 17 deg}\ncross_section: {kind: slab, width: 2 m, thickness: 300 mm}\n"
+            "mesh: {tolerance: 150 mm}\nexport: {formats: [stl], frame: site}\n");
+  // In millimetres x steps by 32 there.
+  for (const char* thickness : {"300 mm", "1 m"}) {
+    for (const double tolerance : {0.035, 0.045, 0.06, 0.15, 0.2}) {
+      CAPTURE(thickness, tolerance);
+      const Design design = read_design(place / "far.yaml", {{"mesh.tolerance", exact_text(tolerance) + " m"},
+                                                             {"cross_section.thickness", thickness}});
+      const Assembly assembly = assemble(design, solve(design));
+      CHECK(assembly.parts.front().solid->max_deviation <= tolerance);
+    }
+  }
+  const Design fine = read_design(place / "far.yaml", {{"mesh.tolerance", "30 mm"}});
+  CHECK_THROWS_WITH(assemble(fine, solve(fine)),
+                    Contains("positions move by up to 16 mm") && Contains("or a tolerance of 65 mm"));
 }
 
 TEST_CASE("a track along which no solid can be built is told with a warning, as a build refuses it") {

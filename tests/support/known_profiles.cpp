@@ -109,4 +109,46 @@ double smallest_valley_radius(const ClothoidSpline& curve) {
   return 1.0 / sharpest;
 }
 
+double largest_curvature(const ClothoidSpline& curve) {
+  double sharpest = 0.0;
+  for (const ClothoidSegment& segment : curve.segments()) {
+    sharpest = std::max({sharpest, std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature)});
+  }
+  return sharpest;
+}
+
+namespace {
+
+constexpr double kWaveRun = 60.0;
+constexpr double kWaveFall = 0.35;
+constexpr double kWaveHeights = 0.6;
+
+}  // namespace
+
+std::vector<Vec2> RoundedWave::points() const {
+  const auto rounded = [](double value) { return std::round(value * 1e3) / 1e3; };
+  const double turn = 2.0 * std::numbers::pi * periods / kWaveRun;
+  std::vector<Vec2> points;
+  for (int i = 0; i < count; ++i) {
+    const double x = kWaveRun * i / (count - 1);
+    const double wave = kWaveHeights / periods * std::sin(turn * x + phase);
+    points.push_back({rounded(x), rounded(kWaveFall * x - wave)});
+  }
+  return points;
+}
+
+double RoundedWave::smallest_radius() const {
+  constexpr int kPlaces = 20'000;
+  const double turn = 2.0 * std::numbers::pi * periods / kWaveRun;
+  const double height = kWaveHeights / periods;
+  double largest = 0.0;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double angle = turn * kWaveRun * i / kPlaces + phase;
+    const double slope = kWaveFall - height * turn * std::cos(angle);
+    largest = std::max(
+        largest, std::fabs(height * turn * turn * std::sin(angle)) / std::pow(1.0 + slope * slope, 1.5));
+  }
+  return 1.0 / largest;
+}
+
 }  // namespace testing

@@ -38,4 +38,19 @@ struct KnownProfile {
 /// @return the smallest radius of a valley [m]
 [[nodiscard]] double smallest_valley_radius(const glissade::ClothoidSpline& curve);
 
+/// @return the largest curvature of either side [1/m]
+[[nodiscard]] double largest_curvature(const glissade::ClothoidSpline& curve);
+
+/// Waves along 60 m that fall by 21 m, as high as leaves each of them alike (0.6 m over their number), at equal steps of x, both
+/// coordinates rounded to millimetres.
+struct RoundedWave {
+  int periods = 1;
+  int count = 0;
+  double phase = 0.0;  // [rad]
+
+  [[nodiscard]] std::vector<glissade::Vec2> points() const;
+  /// @return of the wave, by looking [m]
+  [[nodiscard]] double smallest_radius() const;
+};
+
 }  // namespace testing

@@ -43,6 +43,11 @@ struct Cost {
     if (freedom > kMostFreedom * equations) return std::numeric_limits<double>::infinity();
     return beside_noise(points) / math::pow(1.0 - kPriceOfFreedom * freedom / equations, 2);
   }
+  /// Mallows' score, where the noise is known: an estimate of the same, however free the description is (Technometrics 15
+  /// (1973) 661).
+  [[nodiscard]] double score_beside_noise(std::size_t points) const {
+    return mean_square + 2.0 * noise * freedom / static_cast<double>(points);
+  }
   /// Whether so much of the points is left to chance that its size can be told.
   [[nodiscard]] bool tells(std::size_t points) const {
     const auto equations = static_cast<double>(points);

@@ -177,6 +177,19 @@ double turn_of(const std::vector<ProfilePiece>& pieces, std::size_t from, std::s
   return turn;
 }
 
+/// Whether pieces turn now to one side and now to the other, much more than they do together: no drawing's bend does.
+bool turn_both_ways(const std::vector<ProfilePiece>& pieces, std::size_t from, std::size_t to) {
+  constexpr int kPlaces = 8;       // taste: more than a swelling has turns
+  constexpr double kMuch = 2.0;    // taste: noise makes a bend swing a little
+  constexpr double kLittle = 0.1;  // taste: [rad], what noise makes of a straight
+  double turning = 0.0;
+  for (std::size_t k = from; k < to; ++k) {
+    for (int i = 0; i < kPlaces; ++i)
+      turning += pieces[k].length / kPlaces * std::fabs(pieces[k].curvature((i + 0.5) / kPlaces));
+  }
+  return turning > kLittle + kMuch * std::fabs(turn_of(pieces, from, to));
+}
+
 /// The pieces [from, to) as one.
 PiecewiseProfile replaced(PiecewiseProfile profile, std::size_t from, std::size_t to,
                           const ProfilePiece& by) {
@@ -204,7 +217,7 @@ void add_cubic_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
       if (pieces[to - 1].shape == PieceShape::straight || pieces[to - 1].shape == PieceShape::cubic) break;
       length += pieces[to - 1].length;
       bent = bent || is_bend(to - 1);
-      if (!bent) continue;
+      if (!bent || turn_both_ways(pieces, from, to)) continue;
       const double turn = turn_of(pieces, from, to);
       if (from > 0 && is_straight(from - 1)) {
         if (auto cubic = cubic_piece(length, turn, false)) {
@@ -380,6 +393,7 @@ void add_drawn_bends(const PiecewiseProfile& profile, std::vector<PiecewiseProfi
     std::size_t to = from + 1;
     double length = pieces[from].length;
     while (to < pieces.size() && !is_straight(to)) length += pieces[to++].length;
+    if (turn_both_ways(pieces, from, to)) continue;
     const double turn = turn_of(pieces, from, to);
     for (const std::vector<Part>& parts : kDrawn) {
       if (parts.size() == to - from && fits(parts, from)) continue;
@@ -801,7 +815,9 @@ std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
     const bool told = scattered && points.size() <= kMostDeciding;
     if (!descriptions.best() || told || descriptions.as_good_as_noise()) return;
     const PiecewiseProfile rough = descriptions.best()->profile();
-    const ClothoidSpline nearer = rough.spline();
+    // A reference need only lie near: measured, one to the last digit finds no better pieces.
+    constexpr double kNear = 1e-5;
+    const ClothoidSpline nearer = rough.spline(kNear);
     const PlacedPoints again = placed_beside(nearer, from(rough.start(points.front()), points));
     const double seen = share * std::max(std::sqrt(noise), scatter_of(nearer, again));
     descriptions.add(nearer, again, std::max(seen, kLeastScatterAtLast * nearer.length()));
@@ -821,7 +837,8 @@ std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
   if (descriptions.changes() != seen_best) add_beside_best();
   if (!descriptions.best()) return {};
   const PieceFit& fit = *descriptions.best();
-  return Description{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit)};
+  return Description{fit.profile(), fit.square_sum() / count, scattered, freedom_of(fit),
+                     prices_of_kinds(fit, points.size())};
 }
 
 std::optional<CurvatureRange> largest_curvature_of(const Description& description,

@@ -19,6 +19,7 @@ struct Description {
   double mean_square = 0.0;  // of the points' distances [m^2]
   bool scattered = false;    // the points show noise
   double freedom = 0.0;      // numbers that the points had to yield; the places of breaks count twice
+  double unlikely = 0.0;     // what pieces that drawings rarely have cost beside that, in numbers
 };
 
 /// @param points     in order, none repeated

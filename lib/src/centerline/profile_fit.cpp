@@ -78,6 +78,8 @@ class Fitter {
   /// @return what the validated curve costs, or of one that follows all points the best by the Bayesian criterion on
   ///         the way there; none where points are too few
   [[nodiscard]] const std::optional<Cost>& best_cost() const { return best_cost_; }
+  /// @return whether the curve is that of the best score, which leaves some of the points to noise
+  [[nodiscard]] bool leaves_noise() const { return validated_; }
   /// @return of the validated curve, where its noise can be told
   [[nodiscard]] std::optional<CurvatureRange> largest_curvature();
 
@@ -88,6 +90,8 @@ class Fitter {
   [[nodiscard]] Shape validated();
   [[nodiscard]] Shape interpolating(double smoothing);
   [[nodiscard]] Shape nearest(double smoothing);
+  [[nodiscard]] Shape beside_known_noise(double smoothing);
+  [[nodiscard]] double score_of(const Cost& cost) const;
   void keep_best_cost(const Cost& cost);
   [[nodiscard]] Shape within(double max_deviation);
   [[nodiscard]] double farthest_point() const;
@@ -97,6 +101,7 @@ class Fitter {
   Shape shape_;
   double noise_ = 0.0;      // of the points of the model
   bool validated_ = false;  // the curve is that of the best score
+  bool by_noise_ = false;   // and that score is by the noise that is known
   std::vector<Relaxed> judged_;
   std::optional<CurvatureRange> stiffer_;  // of a curve that would leave some of the points to noise
   std::optional<Cost> best_cost_;
@@ -170,6 +175,19 @@ std::optional<Cost> Fitter::cost(double smoothing) {
   return Cost{data.mean_square, freedom, noise_ / unit};
 }
 
+/// By how much the curvature at a knot stands out over that of a curve without knots, times length: chords of curvature
+/// hold the area of a peak, and pass over it.
+double over_peak(const std::vector<double>& bend, std::size_t knot) {
+  if (knot == 0 || knot + 1 == bend.size()) return 0.0;
+  const double bulge = bend[knot - 1] - 2.0 * bend[knot] + bend[knot + 1];
+  return std::max(0.0, std::copysign(1.0, -bend[knot]) * bulge / 12.0);
+}
+
+double Fitter::score_of(const Cost& cost) const {
+  const std::size_t points = model_.point_count();
+  return by_noise_ ? cost.score_beside_noise(points) : cost.validation_score(points);
+}
+
 /// Two standard deviations of the posterior that the smoothing stands for (Wahba, J. R. Stat. Soc. B 45 (1983) 133), for
 /// every smoothing that cross-validation finds about as good. Where it found none the best, what it would have chosen.
 std::optional<CurvatureRange> Fitter::largest_curvature() {
@@ -177,10 +195,10 @@ std::optional<CurvatureRange> Fitter::largest_curvature() {
   if (!validated_) return stiffer_;
   const std::size_t points = model_.point_count();
   const auto count = static_cast<double>(points);
-  const double as_good = best_cost_->validation_score(points) * (1.0 + kDeviations * std::sqrt(2.0 / count));
+  const double as_good = score_of(*best_cost_) * (1.0 + kDeviations * std::sqrt(2.0 / count));
   std::optional<CurvatureRange> range;
   for (const Relaxed& relaxed : judged_) {
-    if (!(relaxed.cost.validation_score(points) <= as_good)) continue;
+    if (!(score_of(relaxed.cost) <= as_good)) continue;
     Linearized all = model_.linearized(relaxed.shape);
     model_.add_roughness(relaxed.shape, relaxed.smoothing, all);
     stiffen(all.matrix);
@@ -190,13 +208,15 @@ std::optional<CurvatureRange> Fitter::largest_curvature() {
     const auto sharpest = std::max_element(bend.begin(), bend.end(),
                                            [](double a, double b) { return std::fabs(a) < std::fabs(b); });
     std::vector<double> unit(all.matrix.size(), 0.0);
-    unit[kFirstBend + static_cast<std::size_t>(sharpest - bend.begin())] = 1.0;
+    const auto knot = static_cast<std::size_t>(sharpest - bend.begin());
+    unit[kFirstBend + knot] = 1.0;
     all.matrix.solve_forward(unit);
     double spread = 0.0;
     for (const double part : unit) spread += part * part;
     const double most = std::fabs(*sharpest) / relaxed.shape.length;
     const double more = kDeviations * std::sqrt(variance * spread) / relaxed.shape.length;
-    const CurvatureRange here{std::max(0.0, most - more), most + more};
+    const double over = over_peak(bend, knot) / relaxed.shape.length;
+    const CurvatureRange here{std::max(0.0, most - over - more), most + more};
     range = range
                 ? CurvatureRange{std::min(range->least, here.least), std::max(range->greatest, here.greatest)}
                 : here;
@@ -236,6 +256,7 @@ Shape Fitter::validated() {
     validated_ = true;
     return best->shape;
   }
+  if (best && noise_ > 0.0) return beside_known_noise(smoothing);
   if (best) {
     const std::vector<double>& bend = best->shape.bend;
     double most = 0.0;
@@ -244,6 +265,29 @@ Shape Fitter::validated() {
   }
   if (smoothing < kLeastSmoothing) return shape_;
   return model_.can_interpolate() ? interpolating(smoothing) : nearest(smoothing);
+}
+
+/// The shape of the best score by the noise that is known, where cross-validation would go on to follow the points: that
+/// much of them is no shape.
+Shape Fitter::beside_known_noise(double smoothing) {
+  constexpr double kGoneBy = 1.5;  // taste: less smoothing than at such a score only follows noise
+  by_noise_ = true;
+  validated_ = true;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Relaxed& relaxed : judged_) least = std::min(least, score_of(relaxed.cost));
+  for (; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
+    relax(smoothing);
+    const std::optional<Cost> here = cost(smoothing);
+    if (!here || score_of(*here) > kGoneBy * least) break;
+    judged_.push_back({shape_, *here, smoothing});
+    least = std::min(least, score_of(*here));
+  }
+  const auto best = std::min_element(judged_.begin(), judged_.end(), [&](const Relaxed& a, const Relaxed& b) {
+    return score_of(a.cost) < score_of(b.cost);
+  });
+  shape_ = best->shape;
+  best_cost_ = best->cost;
+  return shape_;
 }
 
 /// The shape through all points, by less and less smoothing from the one that was relaxed for `smoothing`.
@@ -311,11 +355,12 @@ Shape Fitter::within(double max_deviation) {
     }
     return near_enough;
   }
-  throw InfeasibleError({"",
-                         "max_deviation: no smooth curve stays within " + length_text(max_deviation) +
-                             " of all " + std::to_string(points_->size()) + " points",
-                         "The nearest one found comes within " + length_text(nearest) + ".",
-                         "a larger max_deviation, or a look at the points that lie farthest off"});
+  throw InfeasibleError(
+      {"",
+       "max_deviation: no smooth curve was found within " + length_text(max_deviation) + " of all " +
+           std::to_string(points_->size()) + " points",
+       "Of the curves tried, from stiff to free, the nearest comes within " + length_text(nearest) + ".",
+       "a larger max_deviation, or a look at the points that lie farthest off"});
 }
 
 /// The place of the curve nearest to a point, by Newton steps from s.
@@ -359,7 +404,11 @@ bool describes_better(const Description& pieces, const std::vector<Vec2>& points
   // still come nearer: few pieces must then be clearly better.
   constexpr double kClearly = 10.0;
   const double margin = pieces.scattered ? 0.0 : math::log(kClearly);
-  return cost.bayesian_score(points.size()) + margin < smooth_cost->bayesian_score(points.size());
+  // What no drawing has, jumps between bends of any kind, is as dear then as among pieces where points scatter: a wave cut into
+  // such is met by fewer numbers than a smooth curve takes, with a curvature that is wrong at every cut.
+  const auto count = static_cast<double>(points.size());
+  const double unlikely = pieces.scattered ? pieces.unlikely * math::log(count) / count : 0.0;
+  return cost.bayesian_score(points.size()) + unlikely + margin < smooth_cost->bayesian_score(points.size());
 }
 
 /// How far a smooth curve may pass a profile between its knots [m]. Where curvature is linear from knot to knot, a
@@ -403,6 +452,8 @@ std::optional<CurvatureRange> widened(std::optional<CurvatureRange> range, const
 struct Found {
   FittedCurve fitted;
   std::optional<Description> description;
+  std::optional<CurvatureRange>
+      beside{};  // of a smooth curve, where the pieces are such that it may be what was built
 
   [[nodiscard]] bool described() const { return description.has_value(); }
 };
@@ -415,10 +466,22 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
     auto description = describe_in_pieces(points, smooth, places);
     if (description && describes_better(*description, points, smooth, fitter.best_cost(), noise)) {
       const Vec2 start = description->profile.start(points.front());
-      return {{description->profile.spline(), start, 0.0, 0.0, {}}, std::move(description)};
+      Found found{{description->profile.spline(), start, 0.0, 0.0, {}}, std::move(description)};
+      if (found.description->unlikely > 0.0 && fitter.leaves_noise())
+        found.beside = fitter.largest_curvature();
+      return found;
     }
   }
   FittedCurve fitted = smooth_curve(std::move(smooth), points.front());
+  if (fitter.leaves_noise()) {
+    // Where that is the curve that was meant the points do not mind.
+    constexpr double kNoWorse = 1.02;  // taste: of the mean square, as little as one freedom of a hundred
+    ClothoidSpline finer = without_chords(fitted.curve);
+    std::vector<Vec2> seen = points;
+    for (Vec2& point : seen) point = point - points.front();
+    if (mean_square_deviation(finer, seen) <= kNoWorse * mean_square_deviation(fitted.curve, seen))
+      fitted.curve = std::move(finer);
+  }
   fitted.largest_curvature = widened(fitter.largest_curvature(), fitted.curve);
   return {std::move(fitted), {}};
 }
@@ -427,8 +490,12 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
 std::optional<CurvatureRange> curvature_range(const Found& found, const std::vector<Vec2>& points,
                                               const std::optional<LastPlaces>& places) {
   if (!found.described()) return found.fitted.largest_curvature;
-  if (found.description->scattered)
-    return widened(largest_curvature_of(*found.description, points, places), found.fitted.curve);
+  if (found.description->scattered) {
+    const auto range = widened(largest_curvature_of(*found.description, points, places), found.fitted.curve);
+    if (!range || !found.beside) return range;
+    return CurvatureRange{std::min(range->least, found.beside->least),
+                          std::max(range->greatest, found.beside->greatest)};
+  }
   std::vector<Vec2> seen = points;
   for (Vec2& point : seen) point = point - found.fitted.start;
   std::vector<double> stations;

@@ -334,6 +334,55 @@ std::optional<ClothoidSpline> clothoids_through(const Nodes& nodes) {
 
 }  // namespace
 
+ClothoidSpline without_chords(const ClothoidSpline& curve) {
+  constexpr double kLittle = 2e-3;  // taste: of the largest curvature, as for a curve through points
+  constexpr std::size_t kMostPerGap =
+      4;  // theory: as many as are led to a place; 1/16 is left of what a chord passes over
+  constexpr std::size_t kFewestKnots = 6;  // theory: those of a spline of third degree
+  std::vector<double> places = {0.0};
+  std::vector<double> lengths;
+  std::vector<double> curvatures = {curve.segments().front().entry_curvature};
+  for (const ClothoidSegment& segment : curve.segments()) {
+    lengths.push_back(segment.length);
+    places.push_back(places.back() + segment.length);
+    curvatures.push_back(segment.exit_curvature);
+  }
+  if (places.size() < kFewestKnots) return curve;
+  const std::vector<double> over = bulges(curvatures, lengths);
+  double most = 0.0;
+  double bulge = 0.0;
+  std::vector<Vec2> smooth;
+  for (std::size_t k = 0; k < curvatures.size(); ++k) {
+    most = std::max(most, std::fabs(curvatures[k]));
+    bulge = std::max(bulge, std::fabs(over[k]));
+    const bool end = k == 0 || k + 1 == curvatures.size();
+    smooth.push_back({curvatures[k] + (end ? 0.0 : over[k]), 0.0});
+  }
+  std::size_t per_gap = 1;
+  while (per_gap < kMostPerGap && bulge > kLittle * most * static_cast<double>(per_gap * per_gap))
+    per_gap *= 2;
+  if (per_gap == 1) return curve;
+  const InterpolatingSpline spline(places, smooth, SplineDegree::cubic);
+  // Led to where the curve has its knots: errors of a direction would add up along the track.
+  Nodes nodes;
+  const auto add = [&](double s) {
+    const CenterlinePoint here = curve.at(std::min(s, curve.length()));
+    nodes.stations.push_back({{here.x, here.drop}, here.slope_angle});
+    nodes.curvatures.push_back(spline.at(s).value.x);
+  };
+  add(0.0);
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    const double step = lengths[k] / static_cast<double>(per_gap);
+    for (std::size_t i = 1; i <= per_gap; ++i) {
+      nodes.lengths.push_back(step);
+      add(i == per_gap ? places[k + 1] : places[k] + step * static_cast<double>(i));
+    }
+  }
+  const std::vector<double> left = bulges(nodes.curvatures, nodes.lengths);
+  for (std::size_t k = 1; k + 1 < left.size(); ++k) nodes.curvatures[k] -= left[k];
+  return clothoids_through(nodes).value_or(curve);
+}
+
 std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points) {
   auto found = parametrized(points);
   if (!found) return {};

@@ -28,4 +28,8 @@ struct FollowedProfile {
 /// @return none where points are too uneven for it
 [[nodiscard]] std::optional<FollowedProfile> follow_points(const std::vector<Vec2>& points);
 
+/// Clothoids from knot to knot stand for a curve whose curvature is smooth: where knots are few for its waves their chords
+/// pass over every peak of it. @return that curve, by more clothoids; the same one where knots are many
+[[nodiscard]] ClothoidSpline without_chords(const ClothoidSpline& curve);
+
 }  // namespace glissade::centerline

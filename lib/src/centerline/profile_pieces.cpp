@@ -32,16 +32,17 @@ double swelling(std::size_t index, double u) {
   return value;
 }
 
-/// Integral of a swelling from 0 to u: with w, 4 u (1 - u) = 1 - w^2.
-double swelling_area(std::size_t index, double u) {
+/// Integrals of the swellings from 0 to u: with w, 4 u (1 - u) = 1 - w^2.
+std::array<double, kMostSwellings> swelling_areas(std::size_t count, double u) {
   const double w = 2.0 * u - 1.0;
-  const auto antiderivative = [&](double at) {
-    double power = at;
-    for (std::size_t i = 0; i < index; ++i) power *= at;
-    const auto n = static_cast<double>(index + 1);
-    return 0.5 * power * (1.0 / n - at * at / (n + 2.0));
-  };
-  return antiderivative(w) - antiderivative(-1.0);
+  std::array<double, kMostSwellings> areas{};
+  double power = w;
+  double from = -1.0;  // the power where u is 0
+  for (std::size_t i = 0; i < count; ++i, power *= w, from = -from) {
+    const auto n = static_cast<double>(i + 1);
+    areas[i] = 0.5 * power * (1.0 / n - w * w / (n + 2.0)) - 0.5 * from * (1.0 / n - 1.0 / (n + 2.0));
+  }
+  return areas;
 }
 
 // A cubic parabola eta = xi^3 w/(3 d^2), w = tan(turn), by the share u of its length (CubicBend): with y = xi/d,
@@ -136,7 +137,9 @@ CubicTurn cubic_turn(const ProfilePiece& piece, double u) {
 double turned_share(const ProfilePiece& piece, double u) {
   if (piece.shape == PieceShape::cubic) return cubic_turn(piece, u).turned / piece.length;
   double sum = piece.entry_curvature * (u - 0.5 * u * u) + piece.exit_curvature * (0.5 * u * u);
-  for (std::size_t i = 0; i < piece.swellings; ++i) sum += piece.swelling[i] * swelling_area(i, u);
+  if (piece.swellings == 0) return sum;
+  const auto areas = swelling_areas(piece.swellings, u);
+  for (std::size_t i = 0; i < piece.swellings; ++i) sum += piece.swelling[i] * areas[i];
   return sum;
 }
 
@@ -204,48 +207,62 @@ double PiecewiseProfile::length() const {
 
 namespace {
 
-/// A bend as clothoids of equal length, as many as told.
+/// A bend as clothoids of equal length, as many as told, at least 4.
 std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece, std::size_t count) {
   const double step = 1.0 / static_cast<double>(count);
-  // Chords of a curvature that bulges one way turn too little: by a twelfth of its second difference each. The ends
-  // have the curvature that they have: it is what the smallest radius is read from.
-  const auto node = [&](std::size_t i) {
+  // Chords of a curvature that bulges one way turn too little: by a twelfth of its second difference each.
+  const auto lost = [&](std::size_t i) {
     const double u = static_cast<double>(i) * step;
+    return (piece.curvature(u + step) - 2.0 * piece.curvature(u) + piece.curvature(u - step)) / 12.0;
+  };
+  // The ends have the curvature that they have: it is what the smallest radius is read from. Half of what they lose, as
+  // one of their chords does, the node beside them makes up for.
+  const auto node = [&](std::size_t i) {
     if (i == 0 || i == count) return i == 0 ? piece.entry_curvature : piece.exit_curvature;
-    const double bulge = piece.curvature(u + step) - 2.0 * piece.curvature(u) + piece.curvature(u - step);
-    return piece.curvature(u) - bulge / 12.0;
+    const double beside = i == 1 || i + 1 == count ? 0.5 * lost(i) : 0.0;
+    return piece.curvature(static_cast<double>(i) * step) - lost(i) - beside;
   };
   std::vector<ClothoidSegment> segments;
   for (std::size_t i = 0; i < count; ++i) segments.push_back({piece.length * step, node(i), node(i + 1)});
   return segments;
 }
 
-/// A bend as so many clothoids that twice as many lead to the same place.
-std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece) {
-  constexpr double kAlike = 1e-8;  // share of the length
+/// The farthest that two rows of clothoids of the same length pass each other, at some places along them.
+double apart(const std::vector<ClothoidSegment>& one, const std::vector<ClothoidSegment>& other) {
+  constexpr int kPlaces = 8;  // taste: one to each of the fewest clothoids
+  const ClothoidSpline here(Angle::from_radians(0.0), one);
+  const ClothoidSpline there(Angle::from_radians(0.0), other);
+  double most = 0.0;
+  for (int i = 1; i <= kPlaces; ++i) {
+    const CenterlinePoint a = here.at(here.length() * i / kPlaces);
+    const CenterlinePoint b = there.at(there.length() * i / kPlaces);
+    most = std::max(most, norm(Vec2{a.x - b.x, a.drop - b.drop}));
+  }
+  return most;
+}
+
+/// A bend as so many clothoids that twice as many pass the same places: two that end in the same place may differ between.
+/// @param alike  share of the length
+std::vector<ClothoidSegment> clothoids_of(const ProfilePiece& piece, double alike) {
   constexpr std::size_t kFewest = 8;
   constexpr std::size_t kMost = 64;
-  const auto end_of = [&](const std::vector<ClothoidSegment>& segments) {
-    const Endpoints end = ClothoidSpline(Angle::from_radians(0.0), segments).endpoints();
-    return Vec2{end.run, end.drop};
-  };
   std::vector<ClothoidSegment> segments = clothoids_of(piece, kFewest);
   for (std::size_t count = 2 * kFewest; count <= kMost; count *= 2) {
     std::vector<ClothoidSegment> finer = clothoids_of(piece, count);
-    const double apart = norm(end_of(finer) - end_of(segments));
+    const double passed = apart(finer, segments);
     segments = std::move(finer);
-    if (apart <= kAlike * piece.length) break;
+    if (passed <= alike * piece.length) break;
   }
   return segments;
 }
 
 }  // namespace
 
-ClothoidSpline PiecewiseProfile::spline() const {
+ClothoidSpline PiecewiseProfile::spline(double alike) const {
   std::vector<ClothoidSegment> segments;
   for (const ProfilePiece& piece : pieces) {
     if (piece.shape == PieceShape::bend || piece.shape == PieceShape::cubic) {
-      const std::vector<ClothoidSegment> bend = clothoids_of(piece);
+      const std::vector<ClothoidSegment> bend = clothoids_of(piece, alike);
       segments.insert(segments.end(), bend.begin(), bend.end());
     } else {
       segments.push_back({piece.length, piece.entry_curvature, piece.exit_curvature});
@@ -312,7 +329,8 @@ PieceFit::Ways PieceFit::ways_at(const ProfilePiece& piece, double t) {
   ways[0] = -piece.length * (u - 0.5 * u * u);
   ways[1] = -piece.length * 0.5 * u * u;
   ways[2] = u * piece.curvature(u) - turned_share(piece, u);
-  for (std::size_t i = 0; i < piece.swellings; ++i) ways[3 + i] = -piece.length * swelling_area(i, u);
+  const auto areas = swelling_areas(piece.swellings, u);
+  for (std::size_t i = 0; i < piece.swellings; ++i) ways[3 + i] = -piece.length * areas[i];
   return ways;
 }
 
@@ -382,7 +400,7 @@ PieceFit::Panel PieceFit::along(const ProfilePiece& piece, const Laid& laid, dou
 
 void PieceFit::lay_out() {
   laid_.clear();
-  Laid next{0.0, profile_.start(points_.front()), profile_.entry, {}, {}};
+  Laid next{0.0, profile_.start(points_.front()), profile_.entry, {}, {}, {}, {}, {}};
   for (const ProfilePiece& piece : profile_.pieces) {
     double most = std::max(std::fabs(piece.entry_curvature), std::fabs(piece.exit_curvature));
     for (std::size_t i = 0; i < piece.swellings; ++i) most += std::fabs(piece.swelling[i]);
@@ -391,8 +409,11 @@ void PieceFit::lay_out() {
     next.panels = {{0.0, next.slope, {}, {}}};
     for (int i = 1; i < count; ++i) next.panels.push_back(along(piece, next, piece.length * i / count));
     next.end = along(piece, next, piece.length);
+    next.tangent = tangent_of(next.slope);
+    next.end_tangent = tangent_of(next.end.slope);
+    next.end_ways = ways_at(piece, piece.length);
     laid_.push_back(next);
-    next = {next.from + piece.length, next.start + next.end.position, next.end.slope, {}, {}};
+    next = {next.from + piece.length, next.start + next.end.position, next.end.slope, {}, {}, {}, {}, {}};
   }
 }
 
@@ -440,20 +461,22 @@ void PieceFit::fill_row(std::size_t piece, const Panel& here, Vec2 position, Vec
     if (column != kNone) row[column] += value;
   };
   const Vec2 start = laid_.front().start;
-  row[kOffset] = dot(direction, perpendicular(tangent_of(profile_.entry)));
-  row[kEntrySlope] = dot(direction, perpendicular(position - start)) -
-                     profile_.offset * dot(direction, tangent_of(profile_.entry));
+  const Vec2 entry = laid_.front().tangent;
+  row[kOffset] = dot(direction, perpendicular(entry));
+  row[kEntrySlope] =
+      dot(direction, perpendicular(position - start)) - profile_.offset * dot(direction, entry);
   for (std::size_t k = 0; k <= piece; ++k) {
     const ProfilePiece& of = profile_.pieces[k];
     const bool own = k == piece;
     const Panel& end = own ? here : laid_[k].end;
     Ways by{};
     for (std::size_t w = 0; w < 3 + of.swellings; ++w) by[w] = dot(direction, end.turned[w]);
-    if (!own || at_end) by[2] += dot(direction, tangent_of(end.slope));
+    if (!own) by[2] += dot(direction, laid_[k].end_tangent);
+    if (own && at_end) by[2] += dot(direction, tangent_of(end.slope));
     if (!own) {
       // All behind the piece turns about its end.
       const double lever = dot(direction, perpendicular(position - laid_[k + 1].start));
-      const Ways turned = ways_at(of, of.length);
+      const Ways& turned = laid_[k].end_ways;
       for (std::size_t w = 0; w < 3 + of.swellings; ++w) by[w] += turned[w] * lever;
       // Longer altogether, and not measured at the same place: its end turns by all of what it is longer.
       by[2] -= of.exit_curvature * lever;
@@ -489,7 +512,8 @@ PieceFit::System PieceFit::linearized() const {
     for (std::size_t a = 0; a < size; ++a) {
       row[a] *= unit[a];
       sum.gradient[a] -= distance * row[a];
-      for (std::size_t b = 0; b <= a; ++b) sum.matrix.at(a, b) += row[a] * row[b];
+      double* const into = &sum.matrix.at(a, 0);
+      for (std::size_t b = 0; b <= a; ++b) into[b] += row[a] * row[b];
     }
   };
   for (std::size_t i = 0; i < points_.size(); ++i) {

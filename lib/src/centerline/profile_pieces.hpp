@@ -59,6 +59,8 @@ inline constexpr double kMostCubicTurn = 0.52;
 /// @return the cubic bend of that length that turns by so much upwards; none beyond kMostCubicTurn
 [[nodiscard]] std::optional<ProfilePiece> cubic_piece(double length, double turn, bool backwards);
 
+inline constexpr double kBendAsClothoids = 1e-8;  // accuracy: no noise of points is as small
+
 /// A profile of few pieces with breaks where they have to be: curvature jumps there unless the pieces are tied.
 struct PiecewiseProfile {
   double offset = 0.0;  // of the start from the first point, across the curve, positive below it [m]
@@ -66,7 +68,8 @@ struct PiecewiseProfile {
   std::vector<ProfilePiece> pieces;
 
   [[nodiscard]] double length() const;
-  [[nodiscard]] ClothoidSpline spline() const;
+  /// @param alike  how far the clothoids of a bend may pass it, as a share of its length
+  [[nodiscard]] ClothoidSpline spline(double alike = kBendAsClothoids) const;
   /// @return where the curve starts [m], in the frame of the points
   [[nodiscard]] Vec2 start(Vec2 first_point) const;
 };
@@ -139,6 +142,10 @@ class PieceFit {
     double slope = 0.0;
     std::vector<Panel> panels;
     Panel end;
+    // Of where it begins and ends, for every point behind.
+    Vec2 tangent;
+    Vec2 end_tangent;
+    Ways end_ways;
   };
   struct System;
 

@@ -24,17 +24,32 @@ class SymmetricMatrix {
   /// Replaces the matrix by its Cholesky factor.
   /// @return false if it is not positive definite
   [[nodiscard]] bool factorize() {
+    constexpr std::size_t kRows = 4;  // budget: sums that do not wait for each other
     for (std::size_t column = 0; column < size_; ++column) {
-      for (std::size_t row = column; row < size_; ++row) {
-        double sum = at(row, column);
-        for (std::size_t k = 0; k < column; ++k) sum -= at(row, k) * at(column, k);
-        if (row > column) {
-          at(row, column) = sum / at(column, column);
-        } else if (sum > 0.0) {
-          at(row, row) = std::sqrt(sum);
-        } else {
-          return false;
+      const double* const own = &values_[column * size_];
+      double diagonal = own[column];
+      for (std::size_t k = 0; k < column; ++k) diagonal -= own[k] * own[k];
+      if (!(diagonal > 0.0)) return false;
+      diagonal = at(column, column) = std::sqrt(diagonal);
+      std::size_t row = column + 1;
+      for (; row + kRows <= size_; row += kRows) {
+        double* const first = &values_[row * size_];
+        double* const second = first + size_;
+        double* const third = second + size_;
+        double* const fourth = third + size_;
+        double sums[kRows] = {first[column], second[column], third[column], fourth[column]};
+        for (std::size_t k = 0; k < column; ++k) {
+          sums[0] -= first[k] * own[k];
+          sums[1] -= second[k] * own[k];
+          sums[2] -= third[k] * own[k];
+          sums[3] -= fourth[k] * own[k];
         }
+        for (std::size_t i = 0; i < kRows; ++i) at(row + i, column) = sums[i] / diagonal;
+      }
+      for (; row < size_; ++row) {
+        double sum = at(row, column);
+        for (std::size_t k = 0; k < column; ++k) sum -= at(row, k) * own[k];
+        at(row, column) = sum / diagonal;
       }
     }
     return true;

@@ -171,17 +171,28 @@ std::string range_meant(const Node& node, Dimension dimension, const std::string
          unit + "}";
 }
 
+/// One value under a key of the list's items, as the key for the whole track has it: "friction_angle: 3 deg". Empty where it is
+/// none.
+std::string friction_of_key(const Entry& entry) {
+  const bool by_coefficient = entry.key == "coefficient";
+  const bool number = read_as(entry.value, Dimension::number).has_value();
+  if (!number && (by_coefficient || !read_as(entry.value, Dimension::angle))) return {};
+  return "friction_" + entry.key + ": " + entry.value.scalar + (by_coefficient || !number ? "" : " deg");
+}
+
 /// A friction for the whole track that was given under the key of a list, as its own key has it: "friction_coefficient: 0.3".
 /// Empty where it is none.
 std::string friction_meant(const Node& node) {
   // Larger numbers without a unit are degrees that nobody wrote.
   constexpr double kLargestCoefficient = 2.0;  // taste
   const bool range = node.kind == Node::Kind::map;
-  // One of the list's own items, without the list.
-  const bool is_item = std::any_of(node.entries.begin(), node.entries.end(), [](const Entry& entry) {
+  const auto is_friction = [](const Entry& entry) {
     return entry.key == "angle" || entry.key == "coefficient";
-  });
-  if (is_item) return {};
+  };
+  // One of the list's own items, without the list; alone, without its place, it is that of the whole track.
+  if (node.entries.size() == 1 && is_friction(node.entries.front()))
+    return friction_of_key(node.entries.front());
+  if (std::any_of(node.entries.begin(), node.entries.end(), is_friction)) return {};
   std::vector<const Node*> values;
   if (!range) values.push_back(&node);
   for (const Entry& entry : node.entries) values.push_back(&entry.value);

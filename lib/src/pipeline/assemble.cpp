@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -168,42 +169,59 @@ double half_width(const CrossSection& section) {
   return reach + beyond;
 }
 
-/// By how much the least precise of the files may move a vertex, before there is a mesh to measure it on.
-/// @throws InputError if that leaves nothing of the tolerance
-double rounding_in_files(const Design& design, const Centerline& centerline, const CrossSection& section,
-                         const Placement& placement) {
+/// By how much the least precise of the files may move a vertex, before there is a mesh to measure it on [m].
+struct FileRounding {
+  double farthest = 0.0;  // coordinate
+  double nearest = 0.0;   // to the nearest number on each axis
+  double beside = 0.0;    // to the one next to it, where two vertices would become one
+};
+
+/// @param reach  how far the solid lies from there at the most [m]
+FileRounding rounding_in_files(const Design& design, Vec3 start, double reach) {
   const std::vector<ExportFormat>& formats = design.exports.formats;
   const bool rounds = std::any_of(formats.begin(), formats.end(), [](ExportFormat format) {
     return file_format(format).content == FileContent::rounded_mesh;
   });
-  if (!rounds) return 0.0;
-  const Vec3 start = placement.start();
-  const double farthest =
-      std::max({std::fabs(start.x), std::fabs(start.y), std::fabs(start.z)}) +
-      math::hypot(centerline.length() + section.highest() - section.lowest(), half_width(section));
-  // Half a step of single precision on each axis; one whole step where two vertices would become one.
-  const double step = 0x1p-23 * farthest;
-  const double rounding = std::sqrt(3.0) * step;
-  constexpr double kMostOfTolerance = 0.5;
-  if (rounding <= kMostOfTolerance * design.mesh.tolerance) return rounding;
-  const bool far_away = norm(start) > 2.0 * centerline.length();
-  throw InputError(
-      {design.where("mesh.tolerance"),
-       "tolerance: " + length_text(design.mesh.tolerance) + " is finer than binary STL can hold",
-       "It holds single precision: at " + length_text(farthest, 3) +
-           " from the origin of the file, positions move by up to " + length_text(rounding, 2) + ".",
-       far_away ? "frame: local in export, whose origin is the start of the track; or off or stl-ascii"
-                : "off or stl-ascii, which hold double precision; or a tolerance of at least " +
-                      length_text(rounding / kMostOfTolerance, 2)});
+  if (!rounds) return {};
+  const double per_metre = units_per_metre(design.exports.unit);
+  FileRounding rounding;
+  double squares = 0.0;
+  for (const double middle : {start.x, start.y, start.z}) {
+    const double farthest = std::fabs(middle) + reach;
+    const auto single = static_cast<float>(per_metre * farthest);
+    const double step = (std::nextafter(single, std::numeric_limits<float>::infinity()) - single) / per_metre;
+    squares += step * step;
+    rounding.farthest = std::max(rounding.farthest, farthest);
+  }
+  rounding.beside = std::sqrt(squares);
+  rounding.nearest = 0.5 * rounding.beside;
+  return rounding;
 }
 
-void require_within_tolerance(const Design& design, double max_deviation) {
-  if (max_deviation <= design.mesh.tolerance) return;
-  throw InternalError({"",
-                       "the files depart by " + length_text(max_deviation, 3) + ", the tolerance is " +
-                           length_text(design.mesh.tolerance, 3),
-                       "", ""});
+constexpr double kMostRounding =
+    0.5;  // taste: of the tolerance; what is left makes facets larger than the file's steps
+
+/// @param moved  by how much positions move [m]
+InputError finer_than_files(const Design& design, const FileRounding& rounding, double moved, bool far_away) {
+  // Numbers next to the nearest leave as much again to the deviation. Rounded up as it is shown.
+  const double coarse = rounding.beside / kMostRounding;
+  const double digit = 0.1 * math::decade_of(coarse);
+  const std::string does = length_text(std::ceil(coarse / digit) * digit, 2);
+  const std::string others = "off or stl-ascii, which hold double precision; or a tolerance of " + does;
+  return InputError(
+      {design.where("mesh.tolerance"),
+       "tolerance: " + length_text(design.mesh.tolerance) + " is finer than binary STL can hold",
+       "It holds single precision: at " + length_text(rounding.farthest, 3) +
+           " from the origin of the file, positions move by up to " + length_text(moved, 2) +
+           "; they may by half of the tolerance.",
+       (far_away ? "frame: local in export, whose origin is the start of the track; or " : "") + others});
 }
+
+/// A solid, and the files' meshes of it, all within the tolerance.
+struct SweptForFiles {
+  Solid solid;
+  std::vector<MeasuredMesh> meshes;
+};
 
 /// The mesh as the least precise of the files holds it: binary STL rounds to single precision.
 const MeasuredMesh& least_precise(const std::vector<MeasuredMesh>& meshes) {
@@ -211,6 +229,35 @@ const MeasuredMesh& least_precise(const std::vector<MeasuredMesh>& meshes) {
     return mesh.is_held_by(MeshFormat::stl_binary);
   });
   return rounded == meshes.end() ? meshes.front() : *rounded;
+}
+
+/// Sweeps to what rounding leaves of the tolerance: that of the nearest numbers, and where two vertices would become one, and
+/// numbers next to those take more, once again to what they leave.
+/// @param swept  makes the solid to a tolerance
+/// @throws InputError if rounding leaves too little
+template <typename Swept>
+SweptForFiles within_tolerance(const Design& design, const FileRounding& rounding, bool far_away,
+                               const Swept& swept, Steps& steps) {
+  const double tolerance = design.mesh.tolerance;
+  double moved = rounding.nearest;
+  constexpr int kMostSweeps =
+      3;  // theory: to the nearest numbers, to what these took, and to the most that they take
+  for (int sweeps = 0; sweeps < kMostSweeps && moved <= kMostRounding * tolerance; ++sweeps) {
+    SweptForFiles result{swept(tolerance - moved), {}};
+    result.meshes = measured(design, result.solid, steps);
+    const double really = least_precise(result.meshes).moved;
+    if (result.solid.max_deviation + really <= tolerance) return result;
+    if (really <= moved) {
+      const double departs = result.solid.max_deviation + really;
+      throw InternalError({"",
+                           "the files depart by " + length_text(departs, 3) + ", the tolerance is " +
+                               length_text(tolerance, 3),
+                           "", ""});
+    }
+    // A finer mesh may move others, and none by more than that.
+    moved = sweeps == 0 ? really : rounding.beside;
+  }
+  throw finer_than_files(design, rounding, moved, far_away);
 }
 
 /// What the files of this build ask for and no more: a mesh may be large.
@@ -259,26 +306,42 @@ std::vector<PendingFile> files_of(const Design& design, const std::string& stem,
   return files;
 }
 
+/// The solid of the track in the frame of the mesh files.
+SweptForFiles track_solid(const Design& design, const Track& track, const CrossSection& section,
+                          const Placement& placement, Steps& steps) {
+  const double length = track.centerline->length();
+  const double reach = math::hypot(length + section.highest() - section.lowest(), half_width(section));
+  const auto swept = [&](double tolerance) {
+    return at_place(design.where("cross_section"), [&] {
+      return sweep(*track.centerline, section, placement,
+                   {.tolerance = tolerance, .largest_kink = design.mesh.largest_kink, .stop = steps.stop()});
+    });
+  };
+  const bool far_away = norm(placement.start()) > 2.0 * length;
+  return within_tolerance(design, rounding_in_files(design, placement.start(), reach), far_away, swept,
+                          steps);
+}
+
 /// The solid of a hood in the frame of the mesh files: swept as the valley that it is upside down, as wide as the track
 /// at its start, and turned over.
-Solid hood_solid(const Design& design, const Track& track, const CrossSection& section,
-                 const Placement& frame, const std::stop_token& stop) {
+SweptForFiles hood_solid(const Design& design, const Track& track, const CrossSection& section,
+                         const Placement& frame, Steps& steps) {
   const HoodShape shape = shape_of(*design.hood);
   const HoodPassage passage = hood_passage(design, track.motion.body());
   const Vec3 entry = frame.to_space(-passage.start.x, -passage.start.y, 0.0);
-  // What single precision may move a vertex by, all told no more than half of the tolerance.
-  const double farthest =
-      norm(entry) + 2.0 * shape.radius + section.highest() - section.lowest() + track.centerline->length();
-  const double rounding = std::min(std::sqrt(3.0) * 0x1p-23 * farthest, 0.5 * design.mesh.tolerance);
-  Solid solid =
-      sweep(*turned_over(shape, first_fall(design).landing), section.at(0.0), track.placement.at_origin(),
-            {.tolerance = design.mesh.tolerance - rounding,
-             .largest_kink = design.mesh.largest_kink,
-             .stop = stop});
-  for (Vec3& vertex : solid.mesh.vertices) vertex = Vec3{vertex.x, vertex.y, -vertex.z} + entry;
-  for (auto& triangle : solid.mesh.triangles) std::swap(triangle[1], triangle[2]);
-  solid.placement = Placement(entry, frame.azimuth());
-  return solid;
+  const double reach = 2.0 * shape.radius + section.highest() - section.lowest() + track.centerline->length();
+  const CenterlinePtr arc = turned_over(shape, first_fall(design).landing);
+  const auto swept = [&](double tolerance) {
+    Solid solid =
+        sweep(*arc, section.at(0.0), track.placement.at_origin(),
+              {.tolerance = tolerance, .largest_kink = design.mesh.largest_kink, .stop = steps.stop()});
+    for (Vec3& vertex : solid.mesh.vertices) vertex = Vec3{vertex.x, vertex.y, -vertex.z} + entry;
+    for (auto& triangle : solid.mesh.triangles) std::swap(triangle[1], triangle[2]);
+    solid.placement = Placement(entry, frame.azimuth());
+    return solid;
+  };
+  return within_tolerance(design, rounding_in_files(design, entry, reach), norm(entry) > 2.0 * reach, swept,
+                          steps);
 }
 
 /// The underside of a hood in the frame of its mesh.
@@ -300,12 +363,10 @@ void add_hood(const Design& given, const Track& track, const CrossSection& secti
   Design design = given;
   std::erase_if(design.exports.formats,
                 [](ExportFormat format) { return file_format(format).content == FileContent::stations; });
-  Solid solid =
-      at_place(given.where("hood"), [&] { return hood_solid(design, track, section, frame, steps.stop()); });
-  const std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
+  auto [solid, meshes] =
+      at_place(given.where("hood"), [&] { return hood_solid(design, track, section, frame, steps); });
   const MeasuredMesh& reference = least_precise(meshes);
   const double max_deviation = solid.max_deviation + reference.moved;
-  require_within_tolerance(design, max_deviation);
   const std::optional<Vec3> offset = offset_in_files(design, track);
   auto material = std::make_shared<SolidForFiles>();
   material->name = design.name.empty() ? "hood" : design.name + ", hood";
@@ -390,18 +451,9 @@ Assembly assemble(const Design& given, Track track, const RunContext& context, c
   CrossSection section = at_place(place, [&] { return CrossSection(*design.cross_section); });
   const Placement placement =
       design.exports.frame == MeshFrame::local ? track.placement.at_origin() : track.placement;
-  const double rounding = rounding_in_files(design, *track.centerline, section, placement);
-  Solid solid = at_place(place, [&] {
-    return sweep(*track.centerline, section, placement,
-                 {.tolerance = design.mesh.tolerance - rounding,
-                  .largest_kink = design.mesh.largest_kink,
-                  .stop = context.stop});
-  });
-
-  const std::vector<MeasuredMesh> meshes = measured(design, solid, steps);
+  auto [solid, meshes] = track_solid(design, track, section, placement, steps);
   const MeasuredMesh& reference = least_precise(meshes);
   const double max_deviation = solid.max_deviation + reference.moved;
-  require_within_tolerance(design, max_deviation);
   const std::optional<Vec3> offset = offset_in_files(design, track);
   const auto for_files = material_for_files(design, track, solid, offset);
 

@@ -6,6 +6,7 @@
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/pipeline/solve.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ namespace glissade::pipeline {
 /// Where the stream of a track wears its floor, the most over every friction of the design.
 /// @param track  of a design with a stream
 [[nodiscard]] std::vector<FloorWear> floor_wear(const Design& design, const Track& track);
+
+/// @return of a body on the straight line to the finish; none where it does not get onto it or does not arrive
+[[nodiscard]] std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body,
+                                                  double gravity);
 
 /// @param length  of the whole track [m]
 [[nodiscard]] Issue law_end_problem(const Design& design, const LawEnd& end, double length);

@@ -8,6 +8,7 @@
 #include "glissade/pipeline/rules.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
+#include "pipeline/body.hpp"
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/fabricate.hpp"
 #include "pipeline/hood.hpp"
@@ -194,17 +195,28 @@ void add_keys_of_design(Json& json, const Design& design) {
   json["cases"] = Json::array();
 }
 
+/// Of the body on the straight line, where no track was found: it knows no limits. None to a finish that was to be chosen.
+std::optional<double> straight_travel_time(const Design& design) {
+  if (design.track.free_finish != FinishKind::point) return {};
+  Design track = design;
+  track.hood.reset();  // the ride does not ask for it, and it may be still to be chosen
+  const auto ride = pipeline::straight_ride(endpoints_of(track), body_of(track), track.gravity);
+  if (!ride) return {};
+  return ride->travel_time();
+}
+
 Json conflict_document(const Design& design, const OptimizeReport& report) {
   Json json = task_document(design, endpoints_of(design));
   json["centerline"] = word(design.centerline.kind);
   json["status"] = to_text(report.status);
   // The keys of a track, so that a reader needs to ask only for their values.
-  for (const char* key : {"travel_time_s", "exit_speed_m_per_s", "highest_speed_m_per_s",
-                          "highest_speed_at_m", "max_normal_load_m_per_s2", "max_normal_load_at_m",
-                          "min_normal_load_m_per_s2", "min_normal_load_at_m", "friction_loss_j_per_kg",
-                          "drag_loss_j_per_kg", "stall", "lift_off", "straight_travel_time_s"}) {
+  for (const char* key :
+       {"travel_time_s", "exit_speed_m_per_s", "highest_speed_m_per_s", "highest_speed_at_m",
+        "max_normal_load_m_per_s2", "max_normal_load_at_m", "min_normal_load_m_per_s2",
+        "min_normal_load_at_m", "friction_loss_j_per_kg", "drag_loss_j_per_kg", "stall", "lift_off"}) {
     json[key] = nullptr;
   }
+  json["straight_travel_time_s"] = number(straight_travel_time(design));
   json["optimum_travel_time_s"] = number(report.unlimited_travel_time);
   for (const char* key : {"entry_slope_angle_deg", "exit_slope_angle_deg", "steepest_slope_angle_deg",
                           "arc_length_m", "min_radius_m"}) {

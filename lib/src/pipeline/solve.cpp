@@ -50,12 +50,6 @@ Endpoints endpoints_of(const Centerline& centerline) {
   return {finish.x, finish.drop};
 }
 
-std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body, double gravity) {
-  Motion ride(std::make_shared<StraightLine>(endpoints), body, gravity);
-  if (!ride.arrived() || !enters(ride)) return {};
-  return ride;
-}
-
 /// Where the track lies: from its start, or, where the search chose that, up to its finish.
 Placement placement_of(const TrackDesign& track, const Endpoints& endpoints) {
   const Placement from_start = Placement::through(track.start, track.finish);
@@ -70,6 +64,12 @@ bool has_closed_optimum(const Body& body) {
 }
 
 }  // namespace
+
+std::optional<Motion> pipeline::straight_ride(const Endpoints& endpoints, const Body& body, double gravity) {
+  Motion ride(std::make_shared<StraightLine>(endpoints), body, gravity);
+  if (!ride.arrived() || !enters(ride)) return {};
+  return ride;
+}
 
 std::optional<double> Track::straight_travel_time() const {
   if (!straight) return {};

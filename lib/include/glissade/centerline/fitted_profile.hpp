@@ -60,8 +60,9 @@ struct ProfileFault {
 ///   Straights, arcs and clothoids come back to rounding from exact points;
 /// - as a clothoid spline of many pieces, curvature continuous, that minimises
 ///     mean of (distance / length)^2 + smoothing * length^3 * integral of (d kappa/ds)^2 ds
-///   over all clothoid splines from the first point, the smoothing chosen by cross-validation. This is the only way
-///   if max_deviation is given;
+///   over all clothoid splines from the first point, the smoothing chosen by cross-validation, or, where rounding tells the
+///   noise of points that this would follow, by Mallows' score. Where its knots are few for its waves, more clothoids stand
+///   for them. This is the only way if max_deviation is given;
 /// - as clothoids along a spline of fifth degree through the points (less their noise, where they show some), where that
 ///   leaves less open between exact points than the smooth curve, or where the smooth curve misses what they show.
 /// What the description costs is told by the deviations.
@@ -72,7 +73,7 @@ struct ProfileFault {
 ///   curve is fitted to means of neighbours, of more than 2000 the spline; deviations are always those of every point.
 /// Accuracy: docs/accuracy.md, profiles fitted to exact points.
 /// Cost: of what builders draw some 0.1 s for 100 points, 1 to 2 s for 2000; of smooth waves, whose pieces no drawing has,
-///   mostly 1 to 8 s, and once 12 s (30 waves of 10 points).
+///   mostly 1 to 3 s.
 /// Identity: exact points of an arc or a straight give that arc or straight.
 class FittedProfile final : public Centerline {
  public:
