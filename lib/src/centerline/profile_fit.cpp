@@ -78,6 +78,8 @@ class Fitter {
   /// @return what the validated curve costs, or of one that follows all points the best by the Bayesian criterion on
   ///         the way there; none where points are too few
   [[nodiscard]] const std::optional<Cost>& best_cost() const { return best_cost_; }
+  /// @return the same, or where noise is known that it would follow, the best beside that
+  [[nodiscard]] ClothoidSpline chosen_spline() { return model_.spline(beside_noise_.value_or(shape_)); }
   /// @return whether the curve is that of the best score, which leaves some of the points to noise
   [[nodiscard]] bool leaves_noise() const { return validated_; }
   /// @return of the validated curve, where its noise can be told
@@ -105,6 +107,9 @@ class Fitter {
   std::vector<Relaxed> judged_;
   std::optional<CurvatureRange> stiffer_;  // of a curve that would leave some of the points to noise
   std::optional<Cost> best_cost_;
+  std::optional<Shape>
+      beside_noise_;  // the best beside noise that is known, where the curve follows the points
+  std::optional<Cost> judged_cost_;  // of the best score
 };
 
 /// Keeps rounding from making a matrix indefinite that is only just not.
@@ -195,7 +200,7 @@ std::optional<CurvatureRange> Fitter::largest_curvature() {
   if (!validated_) return stiffer_;
   const std::size_t points = model_.point_count();
   const auto count = static_cast<double>(points);
-  const double as_good = score_of(*best_cost_) * (1.0 + kDeviations * std::sqrt(2.0 / count));
+  const double as_good = score_of(*judged_cost_) * (1.0 + kDeviations * std::sqrt(2.0 / count));
   std::optional<CurvatureRange> range;
   for (const Relaxed& relaxed : judged_) {
     if (!(score_of(relaxed.cost) <= as_good)) continue;
@@ -252,12 +257,21 @@ Shape Fitter::validated() {
   }
   if (best && !follow) {
     best_cost_ = best->cost;
+    judged_cost_ = best->cost;
     shape_ = best->shape;
     validated_ = true;
     return best->shape;
   }
-  if (best && noise_ > 0.0) return beside_known_noise(smoothing);
-  if (best) {
+  if (best && noise_ > 0.0) {
+    // Pieces are cut beside the curve that follows the points: another would hide small jumps.
+    const Shape stiff = shape_;
+    const std::optional<Cost> cost = best_cost_;
+    beside_noise_ = beside_known_noise(smoothing);
+    judged_cost_ = best_cost_;
+    shape_ = stiff;
+    best_cost_ = cost;
+  }
+  if (best && !beside_noise_) {
     const std::vector<double>& bend = best->shape.bend;
     double most = 0.0;
     for (const double here : bend) most = std::max(most, std::fabs(here) / best->shape.length);
@@ -472,6 +486,7 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
       return found;
     }
   }
+  if (fitter.leaves_noise()) smooth = fitter.chosen_spline();
   FittedCurve fitted = smooth_curve(std::move(smooth), points.front());
   if (fitter.leaves_noise()) {
     // Where that is the curve that was meant the points do not mind.
