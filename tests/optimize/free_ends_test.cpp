@@ -420,8 +420,10 @@ TEST_CASE("a least bound is one: by another way to it a track keeps a little mor
   }
 }
 
-TEST_CASE(
-    "a least load that no track goes below, whatever its speed, takes no more searches than it has digits") {
+namespace {
+
+/// Between two points to a table, with more exit speed left than is asked for.
+Problem down_to_table(ObjectiveKind objective) {
   Problem problem;
   problem.gravity = kGravity;
   problem.endpoints = {80.0, 40.0};
@@ -429,7 +431,15 @@ TEST_CASE(
   problem.limits.slope_angle = {5.0 * kDegree, 60.0 * kDegree};
   problem.limits.exit_slope_angle = Range::fixed(10.0 * kDegree);
   problem.limits.exit_speed.lowest = 22.0;
-  problem.objective.kind = ObjectiveKind::least_load;
+  problem.objective.kind = objective;
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a least load that no track goes below, whatever its speed, takes no more searches than it has digits") {
+  Problem problem = down_to_table(ObjectiveKind::least_load);
   const Optimum least = solved(problem);
   CHECK(least.report.message == "every limit holds, and no track keeps a tighter bound");
   CHECK(least.report.evaluations < 10000);  // 7,000; 23,600 where it is halved down to
@@ -444,14 +454,7 @@ TEST_CASE(
 }
 
 TEST_CASE("where an arc does, no rate of curvature is the least, and told as none") {
-  Problem problem;
-  problem.gravity = kGravity;
-  problem.endpoints = {80.0, 40.0};
-  problem.body.friction = Friction::from_coefficient(0.05);
-  problem.limits.slope_angle = {5.0 * kDegree, 60.0 * kDegree};
-  problem.limits.exit_slope_angle = Range::fixed(10.0 * kDegree);
-  problem.limits.exit_speed.lowest = 22.0;
-  problem.objective.kind = ObjectiveKind::least_curvature_rate;
+  const Problem problem = down_to_table(ObjectiveKind::least_curvature_rate);
   const Optimum least = solved(problem);
   CHECK(least.report.message ==
         "every limit holds on a track of one curvature, which has none that could change");
