@@ -183,6 +183,21 @@ TEST_CASE("elementary functions are exact where geometry counts on it") {
   CHECK(math::hypot(0.0, -7.0) == 7.0);
 }
 
+TEST_CASE("elementary functions keep their last digit, and their sign, at the ends of the range of numbers") {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  for (const double value : {-kLeast, kLeast, -3e-308, 2e-301, -0.0}) {
+    INFO(value);
+    for (const double found :
+         {math::sin(value), math::tan(value), math::asin(value), math::atan(value), math::sinh(value),
+          math::tanh(value), math::asinh(value), math::expm1(value), math::log1p(value)}) {
+      CHECK(found == value);
+      CHECK(std::signbit(found) == std::signbit(value));
+    }
+  }
+  CHECK_THAT(math::log1p(1.1e307), Catch::Matchers::WithinRel(706.9889337289763, 2.3e-16));
+  CHECK_THAT(math::log1p(std::numeric_limits<double>::max()), Catch::Matchers::WithinRel(709.782712893384, 2.3e-16));
+}
+
 TEST_CASE("a hypotenuse neither overflows nor vanishes before its sides do") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   CHECK(math::hypot(3e200, 4e200) == Approx(5e200).epsilon(1e-15));

@@ -70,5 +70,9 @@ TEST_CASE("control characters are found and shown by their number; what is no UT
   CHECK(control_character("ab\x1b[1m").value().offset == 2);
   CHECK(control_character("ab\x1b[1m").value().name == "a control character (U+001B)");
   CHECK(control_character("a\nb", "").value().name == "a line break (U+000A)");
+  for (const char* const text : {"a\u202egnp.b", "a\u2067b", "a\u2028b"})
+    CHECK(control_character(text).value().offset == 1);
+  CHECK(control_character("a\u202eb").value().name == "a control character (U+202E)");
+  CHECK_FALSE(control_character("a\u200fb"));  // a mark that turns nothing but itself
   CHECK(with_controls_shown("\x7f\r\u009b\u00e4\n") == "<U+007F><U+000D><U+009B>\u00e4\n");
 }

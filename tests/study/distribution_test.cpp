@@ -94,6 +94,7 @@ TEST_CASE("a distribution that is none is refused with what would be one") {
   refused("normal(17deg,x)", "'x' in 'normal(17deg,x)' is no number");
   refused("normal(17deg,0deg)", "the standard deviation 0 is not positive");
   refused("uniform(3,2)", "the width -1 is not positive");
+  refused("uniform(-1e308,1e308)", "the width is beyond the range of numbers");
   refused("lognormal(-1,0.2)", "the median -1 is not positive");
   refused("lognormal(1deg,0.2deg)", "The standard deviation of a logarithm has none");
   refused("triangular(1,7,5)", "the mode 7 does not lie between 1 and 5");

@@ -27,6 +27,12 @@ double half_exponential(double value) {
   return sum + (rest + (std::fma(kHalf, growth, -more) + kHalfRest));
 }
 
+/// So near zero that a function with slope one there is its argument to the last bit: SLEEF's lose the sign of the smallest.
+bool is_tiny(double value) {
+  constexpr double kTiny = 1e-300;  // theory: what follows is below it by 1e-300 of it
+  return std::fabs(value) < kTiny;
+}
+
 /// @return log(2 value) of a large finite value
 double logarithm_of_double(double value) {
   constexpr double kTopBinade = 0x1p1023;
@@ -48,6 +54,7 @@ double cos(double angle) {
 }
 
 double tan(double angle) {
+  if (is_tiny(angle)) return angle;
   return Sleef_cinz_tand1_u10purec(angle);
 }
 
@@ -94,6 +101,7 @@ double tanh(double value) {
 }
 
 double asinh(double value) {
+  if (is_tiny(value)) return value;
   const double angle = Sleef_cinz_asinhd1_u10purec(value);
   // SLEEF's square of it overflows.
   if (!std::isinf(angle) || std::isinf(value)) return angle;
@@ -113,6 +121,10 @@ double log(double value) {
 }
 
 double log1p(double value) {
+  constexpr double kLarge =
+      1e300;  // theory: beyond it one is less than the last digit; SLEEF's sum overflows from 1e307 on
+  if (is_tiny(value)) return value;
+  if (value > kLarge) return log(value);
   return Sleef_cinz_log1pd1_u10purec(value);
 }
 

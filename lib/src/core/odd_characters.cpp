@@ -169,8 +169,14 @@ std::optional<OddCharacter> odd_character(std::string_view text) {
 
 namespace {
 
+/// What turns the direction of all that follows in a line, or ends lines for some readers: nobody sees it, either.
+bool is_line_control(std::uint32_t value) {
+  return (value >= 0x2028U && value <= 0x202EU) || (value >= 0x2066U && value <= 0x2069U);
+}
+
 bool is_control(const CodePoint& point, std::string_view allowed) {
   if (point.bytes == 1 && point.value >= 0x80U) return false;  // a byte that is no text
+  if (is_line_control(point.value)) return true;
   const bool control = point.value < 0x20U || (point.value >= 0x7FU && point.value < 0xA0U);
   return control &&
          (point.bytes > 1 || allowed.find(static_cast<char>(point.value)) == std::string_view::npos);

@@ -84,7 +84,10 @@ double truncated_quantile(const std::vector<double>& parameters, double probabil
 }
 
 void require_width(std::string_view name, const std::string& what, double width) {
-  if (width > 0.0) return;
+  if (width > 0.0 && std::isfinite(width)) return;
+  if (width > 0.0)
+    refuse(name, what + " is beyond the range of numbers", "Values are its start and a share of it.",
+           "bounds below 1e307");
   refuse(name, what + " " + exact_text(width) + " is not positive",
          "A value that does not scatter has no distribution.", "--vary or --set for a value that is fixed");
 }

@@ -22,7 +22,8 @@ struct OddCharacter {
 
 /// @param text     UTF-8
 /// @param allowed  those of ASCII that may be there
-/// @return the first control character of `text`, which a terminal obeys and no reader sees: U+0000 to U+001F, U+007F to U+009F;
+/// @return the first control character of `text`, which a terminal obeys and no reader sees: U+0000 to U+001F, U+007F to U+009F,
+///         ends of lines and marks of direction that change what is read after them (U+2028 to U+202E, U+2066 to U+2069);
 ///         none if it has none
 [[nodiscard]] std::optional<OddCharacter> control_character(std::string_view text,
                                                             std::string_view allowed = "\n\t");
