@@ -124,6 +124,37 @@ TEST_CASE("a lowest speed that begins to hold behind the end is told") {
              Contains("speed.lowest holds from 30 m on, but the track ends after 5 m: it never applies"));
 }
 
+TEST_CASE("a line to stay above or below that covers little of the track is told, either way it runs") {
+  const auto told = [](const std::string& start, const std::string& finish, const std::string& limits) {
+    const Design design =
+        parse_design("glissade: 1\ntrack: {start: {x: " + start + ", z: 5 m}, finish: {x: " + finish +
+                         ", z: 2 m}}\nbody: {friction_angle: 10 deg}\n"
+                         "centerline: {kind: straight}\nlimits: {" +
+                         limits + "}\n",
+                     "d.yaml");
+    return warnings(design, solve(design));
+  };
+  const auto ground = [](const std::string& unit) {
+    return "stay_above: [{line: [[2 " + unit + ", 0 m], [3 " + unit + ", 0 m], [4 " + unit + ", 0 m], [5 " +
+           unit + ", 0 m], [6 " + unit + ", 0 m]]}]";
+  };
+  for (const auto& [start, finish] : {std::pair("2 m", "6 m"), std::pair("6 m", "2 m")}) {
+    INFO(start);
+    CHECK(told(start, finish, ground("m")).empty());
+    const std::vector<Issue> in_mm = told(start, finish, ground("mm"));
+    REQUIRE(in_mm.size() == 1);
+    CHECK(in_mm[0].what == "stay_above[0] covers 0 mm of the 4 m that the track runs");
+    CHECK(in_mm[0].where == "d.yaml:5:23");
+    CHECK_THAT(in_mm[0].hint, Contains("unit"));
+    // Part of a survey, and an obstacle's top as short.
+    CHECK(told(start, finish,
+               "stay_below: [{line: [[5 m, 9 m], [5.3 m, 9 m], [5.6 m, 9 m], [5.8 m, 9 m], [7 m, 9 m]]}]")
+              .at(0)
+              .what == "stay_below[0] covers 1 m of the 4 m that the track runs");
+    CHECK(told(start, finish, "stay_below: [{line: [[5 m, 9 m], [7 m, 9 m]]}]").empty());
+  }
+}
+
 TEST_CASE(
     "a width or a friction that is given beyond the end of the track is told, one on the track is not") {
   const Design design = parse_design(

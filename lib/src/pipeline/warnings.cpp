@@ -14,7 +14,10 @@
 #include "pipeline/cross_section.hpp"
 #include "pipeline/probes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace glissade {
 
@@ -54,6 +57,32 @@ void add_places_beyond(const Design& design, const Track& track, std::vector<Iss
   }
   for (const FrictionFrom& change : design.body.friction_changes)
     tell("body.friction", change.from, "friction changes");
+}
+
+/// Lines to stay above or below that leave out most of the track: they may be drawn in another unit, or elsewhere.
+void add_lines_beside(const Design& design, const Track& track, std::vector<Issue>& found) {
+  constexpr std::size_t kSurvey = 5;  // taste: a line of fewer points may be an obstacle's top
+  constexpr double kMost = 0.5;       // taste: of the run
+  const double whole = track.centerline->endpoints().run;
+  if (!design.limits || !(whole > 0.0)) return;
+  TrackDesign placed = design.track;
+  placed.start = track.placement.start();
+  const auto look = [&](const std::vector<Profile>& lines, const std::string& key) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const double one = in_track_plane(placed, lines[i].line.front()).x;
+      const double other = in_track_plane(placed, lines[i].line.back()).x;
+      const double covered = std::min(std::max(one, other), whole) - std::max(std::min(one, other), 0.0);
+      const bool is_survey = lines[i].line.size() >= kSurvey;
+      if (covered > (is_survey ? kMost * whole : 0.0)) continue;
+      found.push_back({design.where("limits." + key + "." + std::to_string(i)),
+                       key + "[" + std::to_string(i) + "] covers " + length_text(std::max(covered, 0.0), 3) +
+                           " of the " + length_text(whole, 4) + " that the track runs",
+                       "Nothing is asked for where a line has no points.",
+                       "the unit and the columns of its points, or a line from start to finish"});
+    }
+  };
+  look(design.limits->stay_above, "stay_above");
+  look(design.limits->stay_below, "stay_below");
 }
 
 /// Points whose shape the fitted curve passes over.
@@ -216,6 +245,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   if (auto issue = law_problem(design, track)) found.push_back(*std::move(issue));
   if (auto issue = never_applies(design, track)) found.push_back(*std::move(issue));
   add_places_beyond(design, track, found);
+  add_lines_beside(design, track, found);
   if (auto issue = kink(design, track)) found.push_back(*std::move(issue));
   if (auto issue = all_but_stalls(design, track)) found.push_back(*std::move(issue));
   if (auto issue = passed_over(design, track)) found.push_back(*std::move(issue));
