@@ -329,6 +329,22 @@ TEST_CASE("widths: random tracks and widths make plates that fit and add up") {
   }
 }
 
+TEST_CASE("widths: a wall that leans along the track weighs as much as the sheet that it is cut from") {
+  const StraightLine line(Endpoints{4.0, 3.0});
+  const section::UChannel channel{WidthLaw(std::vector<WidthAt>{{0.0, 1.4}, {5.0, 0.4}}), 0.25, 4e-3};
+  PlateOptions options = in_one_piece();
+  options.flanges.wanted = false;
+  options.material.density = 7850.0;
+  const WorkshopBuild build = plates_of(line, channel, options);
+  // From 0.7 m to 0.2 m off the middle over 5 m: a rectangle, 4 mm thick whatever its body is.
+  const double length = std::sqrt(5.0 * 5.0 + 0.5 * 0.5);
+  for (const ShopPart* const wall : named(build, "wall")) {
+    CHECK_THAT(wall->mass, Catch::Matchers::WithinRel(length * 0.254 * 4e-3 * 7850.0, 1e-9));
+    CHECK_THAT(wall->volume, Catch::Matchers::WithinRel(5.0 * 0.254 * 4e-3, 1e-9));
+  }
+  CHECK_THAT(part_of(build, "floor").mass, Catch::Matchers::WithinRel(0.5 * (1.4 + 0.4) * 5.0 * 4e-3 * 7850.0, 1e-9));
+}
+
 TEST_CASE("widths: units get as short as the heaviest part asks, whatever the sheet asked for before") {
   PlateOptions options;
   options.split.heaviest = 16.0;

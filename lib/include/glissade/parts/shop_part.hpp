@@ -200,8 +200,10 @@ struct ShopPart {
   std::string material;
   double thickness = 0.0;                       ///< of the stock [m]; > 0
   double density = 0.0;                         ///< [kg/m^3]; > 0
-  double volume = 0.0;                          ///< of one piece, exactly [m^3]
-  double mass = 0.0;                            ///< of one piece [kg]
+  double volume = 0.0;                          ///< of one piece's body, exactly [m^3]
+  /// Of one piece [kg]. Of a wall beside a width that changes that of its sheet: `body`, as thick across the track as the
+  /// sheet is, is thinner by the cosine of what the wall leans along the track (1 to 4 %).
+  double mass = 0.0;
   Vec3 centre_of_gravity;                       ///< of the first piece, in the frame of the assembly [m]
   std::array<double, 3> colour{0.7, 0.7, 0.7};  ///< red, green, blue: 0 to 1
   std::optional<FlatPattern> pattern;           ///< of what is cut from a sheet

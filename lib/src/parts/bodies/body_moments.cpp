@@ -336,4 +336,8 @@ void weigh(ShopPart& part) {
   part.centre_of_gravity = part.places.front().to_space(all.centroid);
 }
 
+void weigh_sheet(ShopPart& part) {
+  part.mass = glissade::moments(part.pattern->region).area * part.thickness * part.density;
+}
+
 }  // namespace glissade::parts

@@ -19,4 +19,9 @@ struct BodyMoments {
 /// Fills in volume, mass and centre of gravity of a part.
 void weigh(ShopPart& part);
 
+/// The mass of a wall beside a width that changes: as thick across the track as its sheet is, its body is thinner than the sheet,
+/// which is what lies on the scales.
+/// @pre the part has a pattern
+void weigh_sheet(ShopPart& part);
+
 }  // namespace glissade::parts

@@ -414,6 +414,7 @@ Strip BentStrips::strip_of(const SectionPlate& plate, double thickness, const St
                                 -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
   develop(plate, thickness, stretch, strip);
+  if (!level(plate)) weigh_sheet(part);
   return strip;
 }
 

@@ -212,6 +212,7 @@ ShopPart set_plate(const StripJob& job, const SectionPlate& plate, double thickn
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   part.pattern = pattern_of(flat, {});
   weigh(part);
+  if (job.widens() && plate.middle_from().y != plate.middle_to().y) weigh_sheet(part);
   return part;
 }
 

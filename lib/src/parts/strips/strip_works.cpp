@@ -280,6 +280,7 @@ Strip strip_of(const StripJob& job, const PlateOfUnit& of, const Span& span, con
   part.places = {plane_of_track(job.placement, origin, 0.0, -0.5 * (plate.face_from.x + plate.face_to.x))};
   weigh(part);
   part.pattern = pattern_of(flat, radii);
+  if (job.widens() && !level) weigh_sheet(part);
   return strip;
 }
 
