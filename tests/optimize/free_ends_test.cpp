@@ -381,6 +381,45 @@ TEST_CASE("down to a level the steepest straight line that is allowed carries th
   CHECK(std::fabs(load / (kGravity * std::cos(40.0 * kDegree)) - 1.0) < 1e-9);
 }
 
+TEST_CASE("of the straight lines to a free end the few that a cap on the speed leaves are found") {
+  Problem problem = between_points(ObjectiveKind::least_load);
+  problem.endpoints = {0.0, 2.395};
+  problem.finish.kind = FinishKind::level;
+  problem.body = {};
+  problem.body.friction = Friction::from_coefficient(0.05);
+  problem.low_friction = Friction::from_coefficient(0.035);
+  problem.high_friction = Friction::from_coefficient(0.0675);
+  problem.body.entry_speed = 2.843;
+  problem.limits = {};
+  problem.limits.exit_speed.lowest = 3.969;
+  problem.limits.speed.highest = 6.057;
+  OptimizeOptions options;
+  options.time_budget = 0.3;
+  const Optimum least = optimize(problem, options);
+  REQUIRE(least.centerline);
+  // The steepest is that on which the body just reaches the cap where friction is low: u^2 = u0^2 + 2 g (drop - mu run).
+  const double run = (2.395 - (6.057 * 6.057 - 2.843 * 2.843) / (2.0 * kGravity)) / 0.035;
+  const double load = kGravity * std::cos(std::atan2(2.395, run));
+  CHECK(Motion(least.centerline, problem.body, kGravity).highest_load().normal_load <= load * (1.0 + 1e-6));
+}
+
+TEST_CASE("where higher and higher tracks carry less and less, no load is called the least") {
+  Problem problem = between_points(ObjectiveKind::least_load);
+  problem.finish.kind = FinishKind::vertical_line;
+  const Optimum open = optimize(problem);
+  REQUIRE(open.centerline);
+  CHECK(open.report.status == OptimizeStatus::feasible_not_converged);
+  CHECK(open.report.message ==
+        "every limit holds, but there is no least load: the higher a track, the less it carries; bound the "
+        "free height");
+  for (const double highest : {20.0, 30.0}) {
+    problem.finish.free_range.highest = highest;
+    const Optimum bounded = solved(problem);
+    CHECK(bounded.report.status == OptimizeStatus::optimal);
+    CHECK(std::fabs(drop_of(bounded) / highest - 1.0) < 1e-6);
+  }
+}
+
 TEST_CASE("a straight line that does not reach the speed is not the answer") {
   Problem problem = between_points(ObjectiveKind::least_load);
   problem.limits.exit_speed.lowest = 9.5;  // the straight line gives 8.92

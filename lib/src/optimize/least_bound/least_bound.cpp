@@ -4,7 +4,6 @@
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/quantity.hpp"
-#include "glissade/core/units.hpp"
 #include "glissade/motion/motion.hpp"
 #include "glissade/referee/referee.hpp"
 
@@ -14,7 +13,9 @@
 #include "optimize/least_bound/most_reached.hpp"
 #include "optimize/least_bound/optimize_briefly.hpp"
 #include "optimize/search/patience.hpp"
+#include "optimize/search/simple_tracks.hpp"
 #include "optimize/search/starts.hpp"
+#include "optimize/search/straight_fan.hpp"
 #include "referee/judgement.hpp"
 
 #include <algorithm>
@@ -59,6 +60,8 @@ class LeastBound {
   [[nodiscard]] Optimum found() {
     bracket_.learn(least_known(), Verdict::kept_by_none);
     const std::optional<Straight> straight = gentlest_straight();
+    if (straight && straight->is_open_above && name_.id == LimitId::highest_normal_load)
+      return told_open(*straight);
     if (straight && straight->reached - bracket_.tight <= bracket_.accuracy() * straight->reached)
       return told(*straight);
     if (std::optional<Optimum> none = begin(); none && !straight)
@@ -106,24 +109,59 @@ class LeastBound {
   struct Straight {
     CenterlinePtr line;
     referee::Judgement judgement;
-    double reached = 0.0;  ///< of what is bounded
+    double reached = 0.0;        ///< of what is bounded
+    bool is_open_above = false;  ///< a higher one would keep every limit, too
   };
 
   /// A start that needs no search: of the straight lines that the ends leave, the one with the least of what is bounded, and
   /// of several the fastest.
   [[nodiscard]] std::optional<Straight> gentlest_straight() const {
+    const StraightFan fan(asked_);
+    const std::vector<double> slopes = fan.slopes();
+    std::vector<std::optional<Straight>> lines;
+    for (const double slope : slopes) lines.push_back(straight_at(fan, slope));
     std::optional<Straight> best;
-    for (const Endpoints& ends : straight_ends()) {
-      const CenterlinePtr line = straight_track(ends);
-      if (asked_.limits.lead_in + asked_.limits.lead_out > line->length()) continue;
-      referee::Judgement judgement = referee::judge_track(asked_, line, referee::kRefereeSamples);
-      if (!judgement.arrived || judgement.worst > options_.limit_tolerance) continue;
-      const double reached = reached_by(line);
-      const bool better = !best || reached < best->reached ||
-                          (reached == best->reached && judgement.travel_time < best->judgement.travel_time);
-      if (better) best = Straight{line, std::move(judgement), reached};
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!is_gentler(lines[i], best)) continue;
+      best = lines[i];
+      place = i;
     }
+    if (!best) return best;
+    if (place > 0 && !lines[place - 1]) look_between(fan, slopes[place], slopes[place - 1], best);
+    if (place + 1 < lines.size() && !lines[place + 1])
+      look_between(fan, slopes[place], slopes[place + 1], best);
+    best->is_open_above = fan.is_open_above() && place + 1 == lines.size();
     return best;
+  }
+
+  [[nodiscard]] static bool is_gentler(const std::optional<Straight>& line,
+                                       const std::optional<Straight>& than) {
+    if (!line || !than) return line.has_value();
+    return line->reached < than->reached ||
+           (line->reached == than->reached && line->judgement.travel_time < than->judgement.travel_time);
+  }
+
+  /// The last line before limits are broken, where it is gentler than the best one.
+  void look_between(const StraightFan& fan, double kept, double broken, std::optional<Straight>& best) const {
+    constexpr int kHalvings = 40;  // rounding: 2^-40 of a step
+    std::optional<Straight> last;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (kept + broken);
+      std::optional<Straight> line = straight_at(fan, middle);
+      (line ? kept : broken) = middle;
+      if (line) last = std::move(line);
+    }
+    if (is_gentler(last, best)) best = std::move(last);
+  }
+
+  /// @return none where it breaks a limit
+  [[nodiscard]] std::optional<Straight> straight_at(const StraightFan& fan, double slope) const {
+    const CenterlinePtr line = straight_track(fan.ends_at(slope));
+    if (asked_.limits.lead_in + asked_.limits.lead_out > line->length()) return std::nullopt;
+    std::optional<KeptTrack> kept = kept_track(asked_, line, options_.limit_tolerance);
+    if (!kept) return std::nullopt;
+    return Straight{line, std::move(kept->judgement), reached_by(line)};
   }
 
   /// As a search finds tracks, so that whatever goes on with one can go on with it.
@@ -131,31 +169,6 @@ class LeastBound {
     const StraightLine line(ends);
     return std::make_shared<ClothoidSpline>(Angle::from_radians(line.slope_angle(0.0)),
                                             std::vector<ClothoidSegment>{{line.length(), 0.0, 0.0}});
-  }
-
-  /// Ends of straight lines: the one between two points, or a fan of them.
-  [[nodiscard]] std::vector<Endpoints> straight_ends() const {
-    constexpr int kSteps = 64;            // taste
-    constexpr double kNotUpright = 1e-3;  // taste [rad]
-    const Endpoints& given = asked_.endpoints;
-    if (asked_.finish.kind == FinishKind::point) return {given};
-    const bool level = asked_.finish.kind == FinishKind::level;
-    double flattest = level ? kNotUpright : kNotUpright - kRightAngle;
-    double steepest = kRightAngle - kNotUpright;
-    const Limits& limits = asked_.limits;
-    for (const Range& range : {limits.slope_angle, limits.entry_slope_angle, limits.exit_slope_angle}) {
-      if (range.lowest) flattest = std::max(flattest, *range.lowest);
-      if (range.highest) steepest = std::min(steepest, *range.highest);
-    }
-    if (flattest > steepest || (level && !(given.drop > 0.0))) return {};
-    std::vector<Endpoints> all;
-    for (int i = 0; i <= kSteps; ++i) {
-      const double slope = i == kSteps ? steepest : flattest + (steepest - flattest) * i / kSteps;
-      const double run = std::fabs(given.run);
-      all.push_back(level ? Endpoints{given.drop / math::tan(slope), given.drop}
-                          : Endpoints{run, run * math::tan(slope)});
-    }
-    return all;
   }
 
   void take(const Straight& straight) {
@@ -179,6 +192,18 @@ class LeastBound {
     report.message = name_.id == LimitId::highest_normal_load
                          ? "every limit holds, and no track carries less than the straight line"
                          : "every limit holds, and the straight line has no curvature that could change";
+    return outlay_.told(std::move(best_), asked_.objective);
+  }
+
+  /// A straight line as high as lines are looked at, where a higher one carries less.
+  Optimum told_open(const Straight& straight) {
+    take(straight);
+    OptimizeReport& report = best_.report;
+    report.checks = check_limits(asked_, best_.centerline);
+    report.status = OptimizeStatus::feasible_not_converged;
+    report.message =
+        "every limit holds, but there is no least load: the higher a track, the less it carries; bound the "
+        "free height";
     return outlay_.told(std::move(best_), asked_.objective);
   }
 

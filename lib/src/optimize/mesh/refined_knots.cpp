@@ -74,6 +74,7 @@ class Demand {
   Demand(const Transcription& track, const Vector& z, const std::vector<Cut>& cuts)
       : knots_(track.mesh().knots), total_(knots_.size(), 0.0) {
     constexpr double kEvenShare = 0.3;  // taste
+    constexpr double kMost = 1e100;     // rounding: of a jump between knots that are one; its square is a number
     const Mesh& mesh = track.mesh();
     const std::size_t n = knots_.size();
     const Vector third = third_differences(track, z, cuts);
@@ -81,7 +82,8 @@ class Demand {
     Vector density(n - 1);
     double mean = 0.0;
     for (std::size_t i = 0; i + 1 < n; ++i) {
-      const double error = 0.5 * (third[i] + third[i + 1]);
+      const double third_here = 0.5 * (third[i] + third[i + 1]);
+      const double error = third_here < kMost ? third_here : kMost;
       const double speed = std::sqrt(0.5 * (knots_[i] + knots_[i + 1]) + before);
       density[i] = math::pow(error * error / speed, 1.0 / 7.0);
       mean += density[i] * (knots_[i + 1] - knots_[i]);
@@ -140,8 +142,10 @@ Vector refined_knots(const Transcription& track, const Vector& z, const std::vec
   const auto share_out_to = [&](double to) {
     const Span span{knots.back(), to};
     if (span.to <= span.from) return;
-    const double part = static_cast<double>(pieces) * demand.within(span) / shared;
-    demand.share_out(span, std::max(kFewest, static_cast<std::size_t>(std::lround(part))), knots);
+    // Next to nothing is shared where cuts take all of the track but rounding.
+    const double part = shared > 0.0 ? std::clamp(demand.within(span) / shared, 0.0, 1.0) : 0.0;
+    const auto due = static_cast<std::size_t>(std::lround(part * static_cast<double>(pieces)));
+    demand.share_out(span, std::max(kFewest, due), knots);
   };
   for (const Cut& cut : cuts) {
     share_out_to(cut.span.from);

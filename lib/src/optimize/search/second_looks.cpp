@@ -16,11 +16,15 @@
 namespace glissade::optimizer {
 namespace {
 
-/// An optimum before what is none, of two the better one.
+/// An optimum before what is none and hardly better, else the better one.
 bool is_ahead(const Candidate& a, const Candidate& b, double tolerance) {
+  constexpr double kHardly =
+      1e-4;  // taste: of the objective; as little is worth less than to know how good a track is
   const bool is_optimum = a.found->residual <= tolerance;
-  if (is_optimum != (b.found->residual <= tolerance)) return is_optimum;
-  return a.found->objective < b.found->objective;
+  const double better = b.found->objective - a.found->objective;
+  const bool counts = std::fabs(better) <= kHardly * std::fabs(b.found->objective);
+  if (counts && is_optimum != (b.found->residual <= tolerance)) return is_optimum;
+  return better > 0.0;
 }
 
 /// What the search goes on from.

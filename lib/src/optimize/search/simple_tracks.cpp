@@ -4,6 +4,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/motion/motion.hpp"
 
+#include "optimize/search/straight_fan.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -95,6 +97,7 @@ class SimpleTracks {
       from_free_start();
     } else {
       for (const Vec2& finish : finishes()) to(finish);
+      along_fan();
     }
     return std::move(best_);
   }
@@ -143,6 +146,19 @@ class SimpleTracks {
       finishes.push_back(level ? Vec2{free, given.y} : Vec2{given.x, free});
     }
     return finishes;
+  }
+
+  /// Straight lines to wherever a free finish may be.
+  void along_fan() {
+    if (problem_.finish.kind == FinishKind::point) return;
+    const StraightFan fan(problem_);
+    for (const double slope : fan.slopes()) {
+      const Endpoints ends = fan.ends_at(slope);
+      const double length = math::hypot(ends.run, ends.drop);
+      if (length < problem_.limits.lead_in + problem_.limits.lead_out) continue;
+      const std::vector<ClothoidSegment> line{{length, 0.0, 0.0}};
+      look(std::make_shared<const ClothoidSpline>(Angle::from_radians(slope), line));
+    }
   }
 
   void to(Vec2 finish) {

@@ -5,6 +5,7 @@
 #include "optimize/discretise/guess.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -27,13 +28,15 @@ Problem with_nearer_changes(Problem problem, std::size_t last, double share) {
 
 /// Where a track that another problem has led to begins in this one: its bends go along with the change.
 /// @param from,to  where the change was and is, over the length of the track
+/// @param longer   its length, of what it was
 MeshTrack moved_along(const ScaledProblem& problem, const Transcription& track, const Vector& z, double from,
-                      double to) {
+                      double to, double longer) {
   const auto moved = [&](double share) {
     return share <= from ? share * to / from : to + (share - from) * (1.0 - to) / (1.0 - from);
   };
   GuessCurve curve = curve_of(track, z);
   for (double& share : curve.sigma) share = moved(share);
+  curve.length *= longer;
   Vector knots;
   for (const double knot : track.mesh().knots) knots.push_back(moved(track.share_of_core(z, knot)));
   Mesh mesh = mesh_of(problem, std::move(knots), curve.length);
@@ -75,8 +78,8 @@ class DrawnBack {
   [[nodiscard]] Problem nearer(double left) const {
     return with_nearer_changes(problem_, change_, math::pow(nearest_, left));
   }
-  /// Place of the change, over the length of the track.
-  [[nodiscard]] double share_at(double left) const { return math::pow(nearest_, left) * place_ / length_; }
+  /// Place of the change [m].
+  [[nodiscard]] double place_at(double left) const { return math::pow(nearest_, left) * place_; }
 
   [[nodiscard]] bool begin() {
     const Problem nearest = nearer(1.0);
@@ -86,9 +89,15 @@ class DrawnBack {
   }
 
   [[nodiscard]] MeshTrack next_of(const Problem& problem, double left) const {
-    const double before = share_at(left_);
-    const double to = std::min(share_at(left), 0.5 * (1.0 + before));
-    return moved_along(scaled(problem, passages_), *track_, z_, before, to);
+    const double before = place_at(left_) / length_;
+    const ScaledProblem next = scaled(problem, passages_);
+    if (problem.finish.kind == FinishKind::point) {
+      const double to = std::min(place_at(left) / length_, 0.5 * (1.0 + before));
+      return moved_along(next, *track_, z_, before, to, 1.0);
+    }
+    // To a free finish what lies on smoother ground stays as long as it is.
+    const double length = length_ + place_at(left) - place_at(left_);
+    return moved_along(next, *track_, z_, before, place_at(left) / length, length / length_);
   }
 
   [[nodiscard]] bool go_on(double left) {
@@ -112,7 +121,7 @@ class DrawnBack {
   [[nodiscard]] bool take(const Found& found, const ScaledProblem& scaled, double left) {
     const double length =
         scaled.chord * (scaled.lead_in + found.track->core_length(found.z) + scaled.lead_out);
-    if (!(length > math::pow(nearest_, left) * place_)) return false;
+    if (!(length > place_at(left))) return false;
     track_ = found.track;
     z_ = found.z;
     length_ = length;
@@ -137,6 +146,54 @@ class DrawnBack {
   std::optional<Candidate> ended_;
 };
 
+/// Finishes of a problem that leaves one coordinate of it free, as far from the start as a change of friction is along the track,
+/// and some farther.
+std::vector<Endpoints> finishes_beyond(const Problem& problem, double place) {
+  constexpr double kShares[] = {0.95, 1.05, 1.3};  // taste: of the way there
+  const bool level = problem.finish.kind == FinishKind::level;
+  if (!level && problem.finish.kind != FinishKind::vertical_line) return {};
+  const Endpoints& given = problem.endpoints;
+  const double known = level ? given.drop : std::fabs(given.run);
+  std::vector<Endpoints> all;
+  for (const double share : kShares) {
+    const double square = share * place * share * place - known * known;
+    double free = square > 0.0 ? std::sqrt(square) : 0.0;
+    const Range& range = problem.finish.free_range;
+    if (range.lowest) free = std::max(free, *range.lowest);
+    if (range.highest) free = std::min(free, *range.highest);
+    if (!(free > 0.0)) continue;
+    const Endpoints ends =
+        level ? Endpoints{std::copysign(free, given.run), given.drop} : Endpoints{given.run, free};
+    const bool is_known = std::any_of(all.begin(), all.end(), [&](const Endpoints& one) {
+      return one.run == ends.run && one.drop == ends.drop;
+    });
+    if (!is_known) all.push_back(ends);
+  }
+  return all;
+}
+
+/// The track to one finish, and the search from there with that free again. @return none where there is none
+std::optional<Candidate> by_a_finish(const Problem& problem, const Endpoints& ends, const Passages& passages,
+                                     const OptimizeOptions& options, SearchControl& control,
+                                     const Progress& progress) {
+  Problem fixed = problem;
+  fixed.endpoints = ends;
+  fixed.finish = {};
+  const Candidate known = Searcher(fixed, options, control, progress).search(passages);
+  if (!known.kept || known.stopped) return std::nullopt;
+  const ScaledProblem freed = scaled(problem, passages);
+  const MeshTrack begun =
+      moved_along(freed, *known.found->track, known.found->z, 0.5, 0.5, known.problem->chord / freed.chord);
+  Searcher searcher(problem, options, control, progress);
+  Candidate end = searcher.search_from(passages, begun.mesh, begun.z);
+  // Bends that are next to none on smoother ground are lost to other meshes: as it is, the track may still be the better one.
+  Candidate as_it_is = searcher.mended(passages, begun.mesh, begun.z);
+  if (!end.kept || (as_it_is.kept && as_it_is.found->objective < end.found->objective))
+    end = std::move(as_it_is);
+  if (!end.kept || end.stopped) return std::nullopt;
+  return end;
+}
+
 }  // namespace
 
 std::vector<Candidate> on_smoother_ground(const Problem& problem, const Passages& passages,
@@ -154,6 +211,11 @@ std::vector<Candidate> on_smoother_ground(const Problem& problem, const Passages
     if (!smoother || is_near || change.from > kFar * length || control.stop()) continue;
     auto track = DrawnBack(problem, passages, i, length, options, control, progress).run();
     if (track) tracks.push_back(*std::move(track));
+    // Where the finish is free a track that only just comes there may be none to draw back; one to a finish that lies there is.
+    for (const Endpoints& ends : track ? std::vector<Endpoints>{} : finishes_beyond(problem, change.from)) {
+      if (auto end = by_a_finish(problem, ends, passages, options, control, progress))
+        tracks.push_back(*std::move(end));
+    }
   }
   return tracks;
 }
