@@ -1,5 +1,6 @@
 // Bent plates of sections other than channels with laps, tabs and slots, covers, liners and openings: bodies, patterns, proof.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/io/step_file.hpp"
 #include "glissade/parts/bend_hits.hpp"
@@ -11,6 +12,7 @@
 #include "parts/bodies/bores.hpp"
 #include "parts/brep_faults.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/curves/nearest_place.hpp"
 #include "parts/random_tracks.hpp"
 #include "parts/refusals.hpp"
 #include "support/catch.hpp"
@@ -91,7 +93,121 @@ std::size_t require_pattern_of_holes(const ShopPart& part) {
   return pairs;
 }
 
+/// Straight, a hollow and straight.
+ClothoidSpline straights() {
+  return {Angle::from_degrees(60.0), {{1.4, 0.0}, {2.1, 1.0 / 6.0}, {1.5, 0.0}}};
+}
+
+/// From where to where along the track a part reaches, over its highest corners or its lowest.
+parts::Span reach_of(const ShopPart& part, const ArcSpline& track) {
+  parts::Span reach{track.length(), 0.0};
+  const Frame& place = part.places.front();
+  for (const Vec3 vertex : parts::facets_of(part.body, 1e-4).vertices) {
+    const Vec3 at = place.to_space(vertex);
+    const double s = parts::nearest_place(track, {0.0, track.length()}, {at.x, at.z}).s;
+    reach = {std::min(reach.from, s), std::max(reach.to, s)};
+  }
+  return reach;
+}
+
 }  // namespace
+
+TEST_CASE(
+    "bent works: openings are where they are asked for, or where their note says, along straights and "
+    "bends") {
+  Random random = seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  PlateOptions options = bent(CornerJoint::butt);
+  int told = 0;
+  int kept = 0;
+  for (const double fixed : {0.35, 0.55, 1.0, 2.4, 4.2, 4.6, 0.0, 0.0}) {
+    const double asked = fixed > 0.0 ? fixed : random.between(0.3, 4.6);
+    INFO("asked " << asked);
+    options.inspection = {{asked, 0.2, 0.1, 8}};
+    const WorkshopBuild build = plates_of(straights(), trapezoid(), options);
+    const parts::Span lid = reach_of(*named(build, "lid").front(), *build.master.spline);
+    const double at = 0.5 * (lid.from + lid.to);
+    const auto note = std::find_if(
+        build.workshop.notes.begin(), build.workshop.notes.end(),
+        [](const std::string& one) { return one.rfind("The opening that is asked for", 0) == 0; });
+    // Of a lid across bends the middle of its corners is some millimetres off that of its face.
+    constexpr double kMiddle = 6e-3;
+    CHECK(std::fabs(at - asked) < 0.1 + 40e-3 + kMiddle);
+    if (note == build.workshop.notes.end()) {
+      CHECK(std::fabs(at - asked) < kMiddle);
+      ++kept;
+      continue;
+    }
+    const std::size_t place = note->find(" along the track is at ") + 23;
+    std::size_t digits = 0;
+    double said = std::stod(note->substr(place), &digits);
+    if (note->substr(place + digits, 3) == " mm") said *= 1e-3;
+    CHECK(std::fabs(at - said) < kMiddle);
+    ++told;
+  }
+  CHECK(kept > 2);
+}
+
+TEST_CASE("bent works: tiles that wear lie where the floor does, and their note says where they lie") {
+  PlateOptions options = bent(CornerJoint::butt);
+  options.liner.emplace();
+  options.liner->bolt = 8;
+  options.liner->material.name = "400 HB";
+  options.liner->tile_length = 0.3;
+  options.liner->where = LinerPlaces::worn;
+  options.liner->worn_from = 0.75;
+  for (const double peak : {0.7, 2.3, 4.3}) {
+    INFO("peak " << peak);
+    // 75 % of it within 0.25 m.
+    options.floor_wear = {{0.0, 0.1, 1e-10},
+                          {peak - 0.5, 0.5, 2e-9},
+                          {peak, 1.0, 4e-9},
+                          {peak + 0.5, 0.5, 2e-9},
+                          {5.0, 0.1, 1e-10}};
+    const WorkshopBuild build = plates_of(straights(), trapezoid(), options);
+    parts::Span wears{5.0, 0.0};
+    for (const ShopPart* const part : named(build, "tile_")) {
+      for (std::size_t i = 0; i < part->places.size(); ++i) {
+        ShopPart one = *part;
+        one.places = {part->places[i]};
+        const parts::Span tile = reach_of(one, *build.master.spline);
+        const bool plain = part->name.find("plain_") == 0;
+        // As far as their edges lie off the track's own.
+        constexpr double kEdge = 2e-3;
+        if (tile.to > peak - 0.25 + kEdge && tile.from < peak + 0.25 - kEdge) CHECK_FALSE(plain);
+        if (tile.to < peak - 0.25 - kEdge || tile.from > peak + 0.25 + kEdge) CHECK(plain);
+        if (!plain) wears = {std::min(wears.from, tile.from), std::max(wears.to, tile.to)};
+      }
+    }
+    CHECK(wears.from < peak);
+    CHECK(wears.to > peak);
+    const auto note =
+        std::find_if(build.workshop.notes.begin(), build.workshop.notes.end(),
+                     [](const std::string& one) { return one.rfind("Tiles of 400 HB lie where", 0) == 0; });
+    REQUIRE(note != build.workshop.notes.end());
+    const std::size_t place = note->find("or more, ") + 9;
+    std::size_t digits = 0;
+    double from = std::stod(note->substr(place), &digits);
+    if (note->substr(place + digits, 3) == " mm") from *= 1e-3;
+    CHECK(std::fabs(from - wears.from) < 6e-3);
+  }
+}
+
+TEST_CASE("bent works: a width that changes on a straight changes where it is asked for") {
+  section::UChannel channel{WidthLaw({{0.3, 0.4}, {0.8, 0.5}}), 0.25, 4e-3};
+  const WorkshopBuild build = plates_of(straights(), channel, bent(CornerJoint::butt));
+  std::vector<double> folds;
+  for (const ShopPart* const part : named(build, "left_wall")) {
+    const auto& body = std::get<FoldedPlate>(part->body);
+    for (const auto& corners : body.corners) {
+      const Vec3 at = part->places.front().to_space(corners[0]);
+      folds.push_back(parts::nearest_place(*build.master.spline, {0.0, 5.0}, {at.x, at.z}).s);
+    }
+  }
+  for (const double knot : {0.3, 0.8}) {
+    CHECK(std::any_of(folds.begin(), folds.end(), [&](double s) { return std::fabs(s - knot) < 1e-6; }));
+  }
+}
 
 TEST_CASE("bent works: laps, tabs, slots, holes and openings are those of body, pattern, facets and STEP") {
   const TempDir dir;

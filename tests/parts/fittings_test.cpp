@@ -254,6 +254,30 @@ TEST_CASE("fittings: what cannot be made is refused with place, value, bound and
   PlateOptions cover;
   cover.cover.emplace();
   CHECK(refusal(cover).find("cover|cover: it is bolted to a rim, and there is none") == 0);
+  cover.rim.emplace();
+  for (const double slip : {0.3, 2.0}) {
+    cover.cover->thickness = slip;
+    CHECK(refusal(cover).find("cover.thickness|thickness: " + std::string(slip > 1.0 ? "2 m" : "300 mm") +
+                              " is more than the rim below it is wide, 40 mm|") == 0);
+    CHECK(refusal_of([&] { return plates_of(chute(), v_channel(), cover); }).find("cover.thickness|") == 0);
+  }
+  PlateOptions slips;
+  slips.liner.emplace();
+  slips.liner->thickness = 2.0;
+  slips.lifting.emplace();
+  slips.lifting->thickness = 2.0;
+  slips.inspection = {{3.0, 0.2, 0.12, 8}};
+  const std::string told = refusal(slips);
+  CHECK(told.find("liner.thickness|thickness: 2 m is more than a tile is wide, 200 mm|") !=
+        std::string::npos);
+  CHECK(told.find("lifting.thickness|thickness: 2 m is more than a lug is wide, 80 mm|") !=
+        std::string::npos);
+  // Those of bent floors are bounded as the sections of strips.
+  slips.floor = FloorMake::bent;
+  slips.lifting.reset();
+  CHECK(refusal(slips).find("liner.thickness|thickness: 2 m is more than a tile is wide, 200 mm|") !=
+        std::string::npos);
+  CHECK(refusal(slips).find("inspection|") == std::string::npos);
   PlateOptions bent;
   bent.floor = FloorMake::bent;
   bent.liner.emplace();

@@ -551,6 +551,15 @@ TEST_CASE("prints: stands with an uneven top come in blocks that are lower below
   CHECK(blocks > 10);
 }
 
+TEST_CASE(
+    "prints: a foot that would stand beyond the line of the ground is refused, told from where to where") {
+  PrintOptions options = on_stands(0.12);
+  options.stands->ground = {{-0.1, -0.3}, {0.2, -0.4}};
+  const std::string text = refusal_of([&] { return prints(run(), groove(), options); });
+  CHECK(text.find(
+            "stands.ground|ground: its line ends at x = 200 mm from the start, and a foot stands at ") == 0);
+}
+
 TEST_CASE("prints: feet of stands are level on the highest ground below them") {
   PrintOptions options = on_stands(0.12);
   options.stands->ground = {{-0.1, -0.3}, {0.2, -0.4}, {0.21, -0.35}, {0.22, -0.4}, {0.8, -0.7}};

@@ -1,5 +1,6 @@
 // How far apart trestles stand.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/pipeline.hpp"
 
@@ -18,13 +19,18 @@ using namespace testing;
 
 namespace {
 
-/// The longest stretch of track between two trestles [m].
-double widest_span(const WorkshopBuild& build) {
+std::vector<double> places_of(const WorkshopBuild& build) {
   std::vector<double> places;
   for (const SettingOutPoint& point : build.workshop.setting_out) {
     if (point.what.rfind("support ", 0) == 0) places.push_back(point.arc_length);
   }
   REQUIRE(std::is_sorted(places.begin(), places.end()));
+  return places;
+}
+
+/// The longest stretch of track between two trestles [m].
+double widest_span(const WorkshopBuild& build) {
+  const std::vector<double> places = places_of(build);
   double widest = 0.0;
   for (std::size_t i = 1; i < places.size(); ++i) widest = std::max(widest, places[i] - places[i - 1]);
   return widest;
@@ -33,6 +39,39 @@ double widest_span(const WorkshopBuild& build) {
 bool tells_of_spans(const WorkshopBuild& build) {
   return std::any_of(build.workshop.notes.begin(), build.workshop.notes.end(),
                      [](const std::string& note) { return note.rfind("Trestles are up to ", 0) == 0; });
+}
+
+bool tells_of_end(const WorkshopBuild& build, const std::string& which) {
+  return std::any_of(build.workshop.notes.begin(), build.workshop.notes.end(), [&](const std::string& note) {
+    return note.rfind("The track sticks out by ", 0) == 0 && note.find(which) != std::string::npos;
+  });
+}
+
+/// What spans of a row are wider than asked for, by squares; ends that stick out count twice.
+double excess(const std::vector<double>& row, double spacing, double length) {
+  std::vector<double> spans = {2.0 * row.front(), 2.0 * (length - row.back())};
+  for (std::size_t i = 1; i < row.size(); ++i) spans.push_back(row[i] - row[i - 1]);
+  double sum = 0.0;
+  for (const double span : spans) sum += std::pow(std::max(0.0, span - spacing), 2.0);
+  return sum;
+}
+
+/// Straight, a bend and straight: lined, framed, on a bent floor, of which trestles find few places.
+WorkshopBuild crowded(double spacing, const std::vector<Vec2>& ground = {{0.0, -8.0}}) {
+  const ClothoidSpline track(Angle::from_degrees(58.0), {{1.5, 0.0}, {2.0, 0.2}, {2.5, 0.0}});
+  PlateOptions options;
+  options.floor = FloorMake::bent;
+  options.split.longest = 2.2;
+  options.flanges = {true, 60e-3, 8e-3, 12, 160e-3};
+  options.liner.emplace();
+  options.liner->tile_length = 0.35;
+  options.rim.emplace();
+  options.stiffeners.emplace();
+  options.stiffeners->spacing = 0.7;
+  options.supports.emplace();
+  options.supports->ground = ground;
+  options.supports->spacing = spacing;
+  return plates(track, options);
 }
 
 }  // namespace
@@ -54,11 +93,56 @@ TEST_CASE("trestles are no farther apart than is asked for, or a note says where
     const WorkshopBuild build = plates(chute(), options);
     const bool wide = widest_span(build) > options.supports->spacing + 1e-3;
     CHECK(wide == tells_of_spans(build));
+    const std::vector<double> row = places_of(build);
+    const double length = build.master.spline->length();
+    const double most = 0.5 * options.supports->spacing + 1e-3;
+    CHECK((row.front() > most) == tells_of_end(build, "above the first"));
+    CHECK((length - row.back() > most) == tells_of_end(build, "below the last"));
     kept = kept || !wide;
     told = told || wide;
   }
   CHECK(kept);
   CHECK(told);
+}
+
+TEST_CASE("trestles: what stands closer than is asked for shows which places are free, and they are found") {
+  std::vector<std::vector<double>> rows;
+  const std::vector<double> spacings = {0.5, 1.2, 2.0, 3.0};
+  double length = 0.0;
+  for (const double spacing : spacings) {
+    const WorkshopBuild build = crowded(spacing);
+    length = build.master.spline->length();
+    rows.push_back(places_of(build));
+    REQUIRE_FALSE(rows.back().empty());
+    CHECK((widest_span(build) > spacing + 1e-3) == tells_of_spans(build));
+    CHECK((rows.back().front() > 0.5 * spacing + 1e-3) == tells_of_end(build, "above the first"));
+    CHECK((length - rows.back().back() > 0.5 * spacing + 1e-3) == tells_of_end(build, "below the last"));
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (const auto& other : rows) {
+      INFO("spacing " << spacings[i]);
+      CHECK(excess(rows[i], spacings[i], length) <= excess(other, spacings[i], length) + 1e-3);
+    }
+  }
+  CHECK(rows[2].size() > 1);
+}
+
+TEST_CASE(
+    "trestles: one that would stand beyond the line of the ground is refused, told from where to where") {
+  const auto told = [&](const std::vector<Vec2>& ground) {
+    return refusal_of([&] { return crowded(2.0, ground); });
+  };
+  const std::string ends = told({{-1.0, -6.0}, {2.0, -8.0}});
+  CHECK(ends.find(
+            "supports.ground|ground: its line ends at x = 2 m from the start, and a trestle stands at ") ==
+        0);
+  CHECK(ends.find("a line as far as ") != std::string::npos);
+  // The line that is told does.
+  const std::size_t hint = ends.find("a line as far as ") + 17;
+  CHECK(told({{-1.0, -6.0}, {std::stod(ends.substr(hint)), -8.0}}).empty());
+  CHECK(told({{3.0, -8.0}, {9.0, -8.0}}).find("its line begins at x = 3 m from the start") !=
+        std::string::npos);
+  CHECK(told({{-1.0, -8.0}, {9.0, -8.0}}).empty());
 }
 
 TEST_CASE("trestles: one more stands where the places that are free would leave a span too wide") {

@@ -281,6 +281,19 @@ TEST_CASE("timber: long legs are braced across and along, boards end on the legs
   CHECK(told.bound == "at most 1.5 m");
 }
 
+TEST_CASE(
+    "timber: a leg that would stand beyond the line of the ground is refused, told from where to where") {
+  const ArcSpline track = bend(20.0, 6.0);
+  TimberOptions options;
+  options.legs = LegOptions{{{-5.0, -16.0}, {3.0, -16.0}}, 2.0, 90e-3};
+  const std::string text = refusal(options, track);
+  // A line as long as the track will do, where legs stand behind its start below a slope.
+  options.legs->ground = {{0.0, -16.0}, {40.0, -16.0}};
+  CHECK(refusal(options, track).empty());
+  CHECK(text.find("legs.ground|ground: its line ends at x = 3 m from the start, and a leg stands at ") == 0);
+  CHECK(text.find("a line as far as ") != std::string::npos);
+}
+
 TEST_CASE("timber: on a slope legs and boards stay above the ground, feet are level on its highest point") {
   const ArcSpline track = bend(20.0, 6.0);
   for (const double grade : {-0.5, -0.25, 0.3}) {

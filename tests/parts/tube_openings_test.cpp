@@ -1,5 +1,6 @@
 // Inspection openings of mitred tubes and troughs.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/io/step_file.hpp"
 #include "glissade/parts/plates.hpp"
@@ -11,6 +12,7 @@
 #include "parts/bodies/tube_windows.hpp"
 #include "parts/bolt_faults.hpp"
 #include "parts/chute_plates.hpp"
+#include "parts/curves/nearest_place.hpp"
 #include "parts/random_tracks.hpp"
 #include "parts/refusals.hpp"
 #include "support/catch.hpp"
@@ -281,6 +283,32 @@ TEST_CASE("tube openings: an opened trough is a solid less its window and holes,
       CHECK(depth > 15e-6);
       CHECK(depth < 25e-6);
     }
+  }
+}
+
+TEST_CASE(
+    "tube openings: along straights they are where they are asked for, and mitres are set out in the bend") {
+  const ClothoidSpline track(Angle::from_degrees(60.0), {{1.4, 0.0}, {1.4, 0.25}, {1.5, 0.0}});
+  for (const double asked : {0.5, 0.9, 3.6}) {
+    INFO("asked " << asked);
+    PlateOptions options = with_opening(asked, 0.1, 0.1);
+    options.bend = {FacetRule::segment_angle, Angle::from_degrees(10.0).radians(), {}, {}};
+    const WorkshopBuild build = plates_of(track, section::Pipe{0.25, 3e-3}, options);
+    const ArcSpline& line = *build.master.spline;
+    REQUIRE(opened_tubes(build).size() == 1);
+    const ShopPart& tube = *opened_tubes(build).front();
+    const TubeWindow& window = std::get<TubeGore>(tube.body).windows.front();
+    const Vec3 at = tube.places.front().to_space({0.0, 0.0, 0.5 * (window.from + window.to)});
+    const double found = parts::nearest_place(line, {0.0, line.length()}, {at.x, at.z}).s;
+    CHECK(found == Approx(asked).margin(1e-6));
+    int mitres = 0;
+    for (const SettingOutPoint& point : build.workshop.setting_out) {
+      if (point.what.find("mitre ") != 0) continue;
+      ++mitres;
+      CHECK(point.arc_length > 1.4);
+      CHECK(point.arc_length < 2.8);
+    }
+    CHECK(mitres == 2);
   }
 }
 

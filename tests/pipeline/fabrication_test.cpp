@@ -373,6 +373,15 @@ TEST_CASE("fabrication: words of export that nothing makes are refused at their 
         std::string::npos);
 }
 
+TEST_CASE("fabrication: every group that is left out by default is left out by the word none") {
+  for (const char* const key :
+       {"flanges", "rim", "stiffeners", "liner", "cover", "inspection", "lifting", "supports"}) {
+    INFO(key);
+    CHECK(refusal("{process: plate, " + std::string(key) + ": none}").empty());
+  }
+  CHECK(refusal("{process: plate, inspection: nothing}").find("inspection") != std::string::npos);
+}
+
 TEST_CASE(
     "fabrication: a ground line is read as those of limits, and one above the track is told at its place") {
   CHECK(refusal("{process: plate, supports: {ground: 5 m}}").find("chute.yaml:5:") != std::string::npos);

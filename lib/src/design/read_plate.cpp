@@ -225,7 +225,8 @@ void read_fittings(MapReader& map, PlateOptions& plate, Findings& findings) {
   plate.stiffeners = optional_group<StiffenerOptions>(map, "stiffeners", findings, with(read_stiffeners));
   plate.liner = optional_group<LinerOptions>(map, "liner", findings, with(read_liner));
   plate.cover = optional_group<CoverOptions>(map, "cover", findings, with(read_cover));
-  if (const auto openings = map.find("inspection")) {
+  const auto openings = map.find("inspection");
+  if (openings && !is_word(*openings, "none", findings)) {
     for (const Value& value : as_list(*openings, "[{at: 2 m}]", findings))
       plate.inspection.push_back(read_opening(value, findings));
   }

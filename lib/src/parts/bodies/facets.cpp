@@ -219,6 +219,100 @@ Facets facets_by_chord(const ArcSpline& track, const Span& span, double toleranc
   return facets_at(track, chosen(track, touches, least_flat, least_end));
 }
 
+namespace {
+
+/// Linear between values that ascend.
+double linear_between(const std::vector<double>& from, const std::vector<double>& to, double value) {
+  const auto after = std::upper_bound(from.begin() + 1, from.end() - 1, value);
+  const auto i = static_cast<std::size_t>(after - from.begin());
+  if (value == from[i - 1]) return to[i - 1];
+  if (value == from[i]) return to[i];
+  return to[i - 1] + (value - from[i - 1]) / (from[i] - from[i - 1]) * (to[i] - to[i - 1]);
+}
+
+/// Pairs places as they come along the track.
+class PlacePairs {
+ public:
+  PlacePairs(const ArcSpline& track, const Facets& facets) : track_(track), facets_(facets) {
+    found_.on_track = {facets.touches.front()};
+    found_.on_flats = {0.0};
+    found_.corners = {facets.touches.front()};
+  }
+
+  /// The feet of where arcs of the track meet within a stretch of it.
+  void add_feet_of_joints(double from, double to) {
+    for (std::size_t i = track_.arc_at(from); i < track_.arcs().size(); ++i) {
+      const double start = track_.arcs()[i].start;
+      if (start >= to) return;
+      if (start > from) add_foot(start);
+    }
+  }
+  /// The foot of a place on the flat that goes on here, where that leads on from what is there.
+  void add_foot(double s) {
+    const double along = dot(frame_at(track_, s).at - facets_.corners[flat_], way());
+    if (!(along < length() - kSame)) return;
+    if (s > found_.on_track.back() + kSame && begins_ + along > found_.on_flats.back() + kSame)
+      add(s, begins_ + along);
+  }
+  /// The end of the flat, whatever it leaves of places before it.
+  void end_flat(double s) {
+    begins_ += length();
+    while (found_.on_track.size() > 1 &&
+           !(s > found_.on_track.back() + kSame && begins_ > found_.on_flats.back() + kSame)) {
+      found_.on_track.pop_back();
+      found_.on_flats.pop_back();
+    }
+    add(s, begins_);
+    found_.corners.push_back(s);
+    ++flat_;
+  }
+
+  [[nodiscard]] Vec2 corner() const { return facets_.corners[flat_ + 1]; }
+  [[nodiscard]] FlatPlaces all() && { return std::move(found_); }
+
+ private:
+  [[nodiscard]] double length() const { return norm(corner() - facets_.corners[flat_]); }
+  [[nodiscard]] Vec2 way() const { return (1.0 / length()) * (corner() - facets_.corners[flat_]); }
+  void add(double s, double place) {
+    found_.on_track.push_back(s);
+    found_.on_flats.push_back(place);
+  }
+
+  const ArcSpline& track_;
+  const Facets& facets_;
+  FlatPlaces found_;
+  std::size_t flat_ = 0;
+  double begins_ = 0.0;  ///< of the flat, along all of them
+};
+
+}  // namespace
+
+FlatPlaces flat_places(const ArcSpline& track, const Facets& facets) {
+  PlacePairs pairs(track, facets);
+  const std::vector<double>& touches = facets.touches;
+  for (std::size_t i = 0; i + 1 < touches.size(); ++i) {
+    const Span stretch{touches[i], touches[i + 1]};
+    const bool bends = std::fabs(slope_at(track, stretch.from) - slope_at(track, stretch.to)) >= kSame;
+    const double corner = bends ? nearest_place(track, stretch, pairs.corner()).s : stretch.to;
+    pairs.add_feet_of_joints(stretch.from, corner);
+    if (bends) {
+      pairs.end_flat(corner);
+      pairs.add_feet_of_joints(corner, stretch.to);
+    }
+    if (i + 2 < touches.size()) pairs.add_foot(stretch.to);
+  }
+  pairs.end_flat(touches.back());
+  return std::move(pairs).all();
+}
+
+double FlatPlaces::flats_at(double s) const {
+  return linear_between(on_track, on_flats, s);
+}
+
+double FlatPlaces::track_at(double place) const {
+  return linear_between(on_flats, on_track, place);
+}
+
 ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness) {
   const Vec2 origin = facets.corners.front();
   const std::size_t flats = facets.corners.size() - 1;

@@ -64,6 +64,13 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
   refusals.positive(liner.thickness, "liner.thickness", "thickness");
   refusals.positive(liner.tile_length, "liner.tile_length", "tile_length");
   refusals.positive(liner.tile_width, "liner.tile_width", "tile_width");
+  const double tile = std::min(liner.tile_length, liner.tile_width);
+  if (tile > 0.0 && liner.thickness > tile) {
+    refusals.add("liner.thickness",
+                 "thickness: " + length_text(liner.thickness) + " is more than a tile is " +
+                     (tile < liner.tile_width ? "long, " : "wide, ") + length_text(tile),
+                 "Tiles are plates that lie on the floor.", "thickness: 6 mm");
+  }
   refusals.bolt(liner.bolt, "liner.bolt", "bolt");
   if (!(liner.heaviest > 0.0)) {
     refusals.add("liner.heaviest", "heaviest: " + rounded_text(liner.heaviest, 4) + " kg is not positive", "",
@@ -138,6 +145,12 @@ void object_to_cover(const PlateOptions& options, Refusals& refusals) {
           "rim: {width: " + length_text(std::ceil(1e3 * least - 1e-6) / 1e3) + "}, or a smaller bolt");
     }
   }
+  if (options.rim && options.rim->width > 0.0 && options.cover->thickness > options.rim->width) {
+    refusals.add("cover.thickness",
+                 "thickness: " + length_text(options.cover->thickness) +
+                     " is more than the rim below it is wide, " + length_text(options.rim->width),
+                 "A cover is a sheet that lies on rims and is bolted to them.", "thickness: 2 mm");
+  }
   if (!options.rim)
     refusals.add("cover", "cover: it is bolted to a rim, and there is none", "", "rim: {width: 40 mm}");
 }
@@ -211,6 +224,13 @@ void object_to_stiffeners(const PlateOptions& options, double lap, Refusals& ref
 
 void object_to_lugs(const LiftingOptions& lifting, Refusals& refusals) {
   refusals.positive(lifting.thickness, "lifting.thickness", "thickness");
+  constexpr double kWide = 80e-3;  // of a lug [m]
+  if (lifting.thickness > kWide) {
+    refusals.add(
+        "lifting.thickness",
+        "thickness: " + length_text(lifting.thickness) + " is more than a lug is wide, " + length_text(kWide),
+        "Lugs are plates.", "thickness: 10 mm");
+  }
   if (lifting.hole > 0.0 && lifting.hole <= 40e-3) return;
   refusals.add("lifting.hole", "hole: " + length_text(lifting.hole) + " does not go into a lug",
                "Lugs are 80 mm wide and reach 60 mm above the walls.", "hole: 22 mm");

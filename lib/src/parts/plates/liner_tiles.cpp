@@ -130,7 +130,7 @@ void set_bolts(const PlateOptions& options, const OnOneArc& arcs, TilePlace& til
     throw InputError(
         {"liner.bolt",
          "bolt: holes for M" + std::to_string(options.liner->bolt) + " find no place between " +
-             length_text(span.from, 3) + " and " + length_text(span.to, 3) + " along the track",
+             length_text(tile.told.from, 3) + " and " + length_text(tile.told.to, 3) + " along the track",
          bent ? "They lie on one flat each, clear of where its bends begin at the height of any tile, and "
                 "none "
                 "there has room for a hole of " +
@@ -158,7 +158,8 @@ std::vector<double> bolts_across(const PlateOptions& options, double lane) {
 
 std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vector<double>& lanes,
                                    const Span& unit, const OnOneArc& arcs, int& row, const OnOneArc* seams,
-                                   const std::function<double(const Span&)>& wider) {
+                                   const std::function<double(const Span&)>& wider,
+                                   const std::function<double(double)>& on_track) {
   const LinerOptions& liner = *options.liner;
   std::vector<double> widest = lanes;
   if (wider) {
@@ -182,12 +183,21 @@ std::vector<TilePlace> tile_places(const PlateOptions& options, const std::vecto
     if (!(span.to > span.from)) continue;
     ++row;
     const double more = wider ? wider(span) : 0.0;
+    const Span told = on_track ? Span{on_track(span.from), on_track(span.to)} : span;
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
       const Course course = course_of(liner, lanes[lane] + more, row % 2 == 0);
       for (std::size_t i = 0; i < course.widths.size(); ++i) {
-        TilePlace tile{
-            span, row, lane, course.edges[i], course.widths[i], course.widths[i] < 0.9 * course.full,
-            {},   {},  more, liner.gap};
+        TilePlace tile{span,
+                       told,
+                       row,
+                       lane,
+                       course.edges[i],
+                       course.widths[i],
+                       course.widths[i] < 0.9 * course.full,
+                       {},
+                       {},
+                       more,
+                       liner.gap};
         set_bolts(options, arcs, tile);
         tiles.push_back(std::move(tile));
       }
@@ -219,7 +229,7 @@ class Tiler {
     const CourseWear wear = wear_along(options_.floor_wear, first->span);
     const bool wears = liner_.where == LinerPlaces::whole || wear.share >= liner_.worn_from;
     plain_ = plain_ || !wears;
-    if (wears) remember(first->span);
+    if (wears) remember(first->told);
     std::vector<int> numbers;
     for (auto tile = first; tile != last; ++tile) {
       ShopPart part = make_(*tile, wears ? liner_.material : options_.material);
@@ -255,7 +265,7 @@ class Tiler {
     thinnest_ = std::max(thinnest_, loss_rate);
     const double lasts = liner_.thickness / loss_rate;
     ShopFacts(workshop_).at("course " + std::to_string(course.row) + " of tiles, at " +
-                                length_text(course.span.from, 3) + " to " + length_text(course.span.to, 3) +
+                                length_text(course.told.from, 3) + " to " + length_text(course.told.to, 3) +
                                 " along the track lasts " + hours_text(lasts),
                             "liner_life_share", lasts / *liner_.life, 1.0, Dimension::number);
     constexpr double kMostSets = 1e4;

@@ -18,7 +18,8 @@ namespace glissade::parts {
 inline constexpr double kLeastTile = 2.4;
 
 struct TilePlace {
-  Span span;    ///< along the track
+  Span span;    ///< along the line that the floor follows
+  Span told;    ///< the same along the track, for people
   int row = 0;  ///< of its course, from 1, counted over all units
   std::size_t lane = 0;
   double edge = 0.0;  ///< its left edge, from that of the lane [m]
@@ -36,12 +37,14 @@ struct TilePlace {
 /// @param row    courses so far; counts on
 /// @param seams  where courses may meet; none: anywhere
 /// @param wider  of a lane that widens: by how much it is wider over a course than told, at the least
+/// @param on_track  the place on the track of one on the line that the floor follows; none: that is the track
 /// @throws InputError where no bolt finds a place: between which places, and a way out
 [[nodiscard]] std::vector<TilePlace> tile_places(const PlateOptions& options,
                                                  const std::vector<double>& lanes, const Span& unit,
                                                  const OnOneArc& arcs, int& row,
                                                  const OnOneArc* seams = nullptr,
-                                                 const std::function<double(const Span&)>& wider = {});
+                                                 const std::function<double(const Span&)>& wider = {},
+                                                 const std::function<double(double)>& on_track = {});
 
 /// @return where the bolts of tiles stand across a lane, in courses of both kinds: from its left edge [m]
 [[nodiscard]] std::vector<double> bolts_across(const PlateOptions& options, double lane);

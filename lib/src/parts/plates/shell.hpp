@@ -92,7 +92,7 @@ std::vector<StandingPlate> add_stiffeners(const Shell& shell);
 void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners);
 
 /// Trestles from the ground.
-/// @throws InputError where the ground leaves them no room, or the track is too steep for any
+/// @throws InputError where the ground leaves them no room, its line ends before one, or the track is too steep for any
 void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows);
 
 /// Mass and first moment of what belongs to a unit.

@@ -415,8 +415,13 @@ std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& j
   const std::array<double, 4> across = {job.face.low().x - options.fit - kCheeks,
                                         job.face.low().x - options.fit, job.face.high().x + options.fit,
                                         job.face.high().x + options.fit + kCheeks};
+  const std::vector<Place> places = places_of(job, underside, joints);
+  std::vector<Foot> feet;
+  for (const Place& place : places)
+    feet.push_back({place.x, frame_at(job.track, underside.above(place.x)).at.x});
+  require_on_ground(options.ground, feet, "stands.ground", "a foot");
   std::vector<Stand> stands;
-  for (const Place& place : places_of(job, underside, joints)) {
+  for (const Place& place : places) {
     Stand stand;
     stand.at = underside.above(place.x);
     stand.what = place.what;

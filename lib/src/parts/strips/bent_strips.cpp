@@ -88,7 +88,7 @@ BentStrips::BentStrips(const StripJob& job, double largest_kink, const std::vect
     const Span span{joints[j], joints[j + 1]};
     facets_.push_back(bent_flats(job, span, largest_kink));
     if (job.section.convex) require_end_flats(span, facets_.back(), job.options.flanges);
-    add_unit(facets_.back(), span);
+    add_unit(facets_.back());
   }
   lean_facets();
 }
@@ -99,24 +99,8 @@ std::size_t BentStrips::bends() const {
   return count;
 }
 
-std::vector<FlatCorner> BentStrips::corners() const {
-  std::vector<FlatCorner> all;
-  for (const Stretch& unit : units_) {
-    for (std::size_t i = all.empty() ? unit.first : unit.first + 1; i <= unit.last; ++i)
-      all.push_back({stations_[i].s, stations_[i].at, stations_[i].miss});
-  }
-  return all;
-}
-
-void BentStrips::add_unit(const Facets& facets, const Span& span) {
-  // Each corner stands for the middle of the track between the places where its flats touch.
-  std::vector<double> middles = {span.from};
-  for (std::size_t i = 0; i + 1 < facets.touches.size(); ++i) {
-    const auto slope = [&](double s) { return job_.track.direction(s).slope_angle; };
-    if (std::fabs(slope(facets.touches[i]) - slope(facets.touches[i + 1])) >= 1e-9)
-      middles.push_back(0.5 * (facets.touches[i] + facets.touches[i + 1]));
-  }
-  middles.push_back(span.to);
+void BentStrips::add_unit(const Facets& facets) {
+  const FlatPlaces places = flat_places(job_.track, facets);
   const std::size_t first = stations_.size();
   const std::size_t flats = facets.corners.size() - 1;
   const auto way = [&](std::size_t i) {
@@ -127,24 +111,26 @@ void BentStrips::add_unit(const Facets& facets, const Span& span) {
     const Vec2 before = way(i == 0 ? 0 : i - 1);
     const Vec2 after = way(i == flats ? flats - 1 : i);
     const bool bend = i > 0 && i < flats;
-    Station station{middles[i],
+    Station station{places.corners[i],
                     facets.corners[i],
                     {},
                     bend ? facets.kinks[i - 1] : 0.0,
                     bend ? facets.misses[i - 1] : 0.0,
-                    job_.wider_at(middles[i]),
+                    job_.wider_at(places.corners[i]),
                     0.0};
     const Vec2 mean{0.5 * (before.x + after.x), 0.5 * (before.y + after.y)};
     // Of length 1 / cos(kink / 2): one per height above either flat.
     station.rise = (1.0 / dot(mean, mean)) * Vec2{-mean.y, mean.x};
     stations_.push_back(station);
     if (i == flats || !job_.section.widths) continue;
-    add_knots(facets, i, {middles[i], middles[i + 1]});
+    add_knots(facets, i, places);
   }
   units_.push_back({first, stations_.size() - 1});
 }
 
-void BentStrips::add_knots(const Facets& facets, std::size_t flat, const Span& span) {
+void BentStrips::add_knots(const Facets& facets, std::size_t flat, const FlatPlaces& places) {
+  const Span span{places.corners[flat], places.corners[flat + 1]};
+  const double begins = places.flats_at(span.from);
   const Vec2 along = facets.corners[flat + 1] - facets.corners[flat];
   const double length = norm(along);
   // The fold at a change of width and a bend may not meet below the plates' edges.
@@ -157,7 +143,7 @@ void BentStrips::add_knots(const Facets& facets, std::size_t flat, const Span& s
   const double wide_to = job_.wider_at(span.to);
   for (const WidthAt& knot : job_.section.widths->knots()) {
     if (!(knot.at > span.from && knot.at < span.to)) continue;
-    const double share = (knot.at - span.from) / (span.to - span.from);
+    const double share = (places.flats_at(knot.at) - begins) / length;
     const double wide = job_.wider_at(knot.at);
     if (share * length < room(flat) || (1.0 - share) * length < room(flat + 1)) {
       departure_ = std::max(departure_, std::fabs(wide - (1.0 - share) * wide_from - share * wide_to));

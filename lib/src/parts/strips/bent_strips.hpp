@@ -30,13 +30,6 @@ struct Strip {
   double sprung = 0.0;   ///< of a bent one that springs(): the largest angle between its flats, else 0 [rad]
 };
 
-/// A corner of the flats, or an end of them.
-struct FlatCorner {
-  double s = 0.0;     ///< the place on the track that it stands for [m]
-  Vec2 at;            ///< in the frame (x, height)
-  double miss = 0.0;  ///< from the track [m]
-};
-
 /// Whether a plate springs into place without bends. On every other one each bend of the line is pressed, as its lean from upright
 /// leaves it: floors, which the body rides, have all of them.
 /// @param tightest  radius that its bends average, where that is least [m]
@@ -87,8 +80,6 @@ class BentStrips {
   };
   /// @param at  on the floor line; off it, the flat nearest to that counts
   [[nodiscard]] Half half_at(Vec2 at) const;
-  /// @return the corners of all flats, one where units meet
-  [[nodiscard]] std::vector<FlatCorner> corners() const;
   [[nodiscard]] const std::vector<Facets>& facets() const { return facets_; }
   [[nodiscard]] std::size_t bends() const;
   /// @return by how much a side lies off the width that is asked for, where that begins to change beside a bend [m]
@@ -133,9 +124,9 @@ class BentStrips {
     bool pressed = false;
   };
 
-  void add_unit(const Facets& facets, const Span& span);
+  void add_unit(const Facets& facets);
   /// Where the width begins or ends to change on a flat, it is folded; too near a bend for that, it changes there.
-  void add_knots(const Facets& facets, std::size_t flat, const Span& span);
+  void add_knots(const Facets& facets, std::size_t flat, const FlatPlaces& places);
   void lean_facets();
   [[nodiscard]] double flat(std::size_t i) const { return norm(stations_[i + 1].at - stations_[i].at); }
   [[nodiscard]] double taper(std::size_t i) const;

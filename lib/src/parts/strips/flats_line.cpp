@@ -11,63 +11,66 @@
 namespace glissade::parts {
 namespace {
 
-ArcSpline line_through(const std::vector<FlatCorner>& corners) {
-  ArcPath path;
-  for (const FlatCorner& corner : corners) path.vertices.push_back({corner.at, 0.0});
-  return ArcSpline(std::move(path), std::numbers::pi);
-}
-
-/// Linear between values that ascend.
-double between(const std::vector<double>& from, const std::vector<double>& to, double value) {
-  const auto after = std::upper_bound(from.begin() + 1, from.end() - 1, value);
-  const auto i = static_cast<std::size_t>(after - from.begin());
-  if (value == from[i - 1]) return to[i - 1];
-  if (value == from[i]) return to[i];
-  return to[i - 1] + (value - from[i - 1]) / (from[i] - from[i - 1]) * (to[i] - to[i - 1]);
-}
-
-std::vector<double> on_track_of(const std::vector<FlatCorner>& corners) {
-  std::vector<double> places;
-  for (const FlatCorner& corner : corners) places.push_back(corner.s);
-  return places;
-}
-
 /// The options, with what they say of places along the track as places along the flats.
 PlateOptions along(const FlatsLine& flats, PlateOptions options) {
   for (FloorWear& wear : options.floor_wear) wear.at = flats.on_line(wear.at);
   for (InspectionOptions& opening : options.inspection) {
     // One that is not on the track stays so: it is refused with the track's length.
-    if (opening.at > 0.0 && opening.at < on_track_of(flats.corners()).back())
-      opening.at = flats.on_line(opening.at);
+    if (opening.at > 0.0 && opening.at < flats.track_end()) opening.at = flats.on_line(opening.at);
   }
   return options;
 }
 
 }  // namespace
 
-FlatsLine::FlatsLine(const std::vector<FlatCorner>& corners)
-    : corners_(corners), line_(line_through(corners)) {
-  for (const TrackArc& flat : line_.arcs()) places_.push_back(flat.start);
-  places_.push_back(line_.length());
+std::vector<FlatsLine::Corner> FlatsLine::corners_of(const std::vector<Facets>& units) {
+  std::vector<Corner> all{{units.front().corners.front()}};
+  for (const Facets& unit : units) {
+    for (std::size_t i = 1; i < unit.corners.size(); ++i)
+      all.push_back({unit.corners[i], i <= unit.bends() ? unit.misses[i - 1] : 0.0});
+  }
+  return all;
+}
+
+ArcSpline FlatsLine::line_through(const std::vector<Corner>& corners) {
+  ArcPath path;
+  for (const Corner& corner : corners) path.vertices.push_back({corner.at, 0.0});
+  return ArcSpline(std::move(path), std::numbers::pi);
+}
+
+FlatsLine::FlatsLine(const ArcSpline& track, const std::vector<Facets>& units)
+    : corners_(corners_of(units)), line_(line_through(corners_)) {
+  const std::vector<TrackArc>& flats = line_.arcs();
+  std::size_t flat = 0;
+  for (const Facets& unit : units) {
+    const FlatPlaces own = flat_places(track, unit);
+    const std::size_t first = places_.on_track.empty() ? 0 : 1;  // the last of a unit begins the next one
+    for (std::size_t i = first; i < own.on_track.size(); ++i) {
+      places_.on_track.push_back(own.on_track[i]);
+      places_.on_flats.push_back(flats[flat].start + own.on_flats[i]);
+    }
+    flat += unit.bends() + 1;
+    places_.on_flats.back() = flat < flats.size() ? flats[flat].start : line_.length();
+  }
 }
 
 double FlatsLine::on_line(double s) const {
-  return between(on_track_of(corners_), places_, s);
+  return places_.flats_at(s);
 }
 
 double FlatsLine::on_track(double place) const {
-  return between(places_, on_track_of(corners_), place);
+  return places_.track_at(place);
 }
 
 double FlatsLine::miss_at(Vec2 point) const {
   const auto nearest = std::min_element(
       corners_.begin(), corners_.end(),
-      [&](const FlatCorner& a, const FlatCorner& b) { return norm(a.at - point) < norm(b.at - point); });
+      [&](const Corner& a, const Corner& b) { return norm(a.at - point) < norm(b.at - point); });
   return nearest->miss;
 }
 
 FlatsJob::FlatsJob(const StripJob& job, const BentStrips& bent, const std::vector<double>& joints)
-    : flats_(bent.corners()),
+    : flats_(job.track, bent.facets()),
       options_(along(flats_, job.options)),
       job_(flats_, job.section, options_, job.placement) {
   for (const double joint : joints) joints_.push_back(flats_.on_line(joint));

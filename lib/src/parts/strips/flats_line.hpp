@@ -3,6 +3,7 @@
 #include "glissade/parts/arc_spline.hpp"
 #include "glissade/parts/plate_options.hpp"
 
+#include "parts/bodies/facets.hpp"
 #include "parts/strips/bent_strips.hpp"
 #include "parts/strips/strip_shape.hpp"
 
@@ -10,25 +11,34 @@
 
 namespace glissade::parts {
 
-/// The line of flats that the plates of a bent job follow, from unit to unit, as what is cut and set along it counts: a place on it
-/// stands for one on the track as corners of flats stand for the middle between the places where their flats touch it.
+/// The line of flats that the plates of a bent job follow, from unit to unit, as what is cut and set along it counts: places on it stand
+/// for those on the track as FlatPlaces has it.
 class FlatsLine {
  public:
-  /// @param corners  of flats, both ends of the track and of its units among them; ascending places on the track
-  explicit FlatsLine(const std::vector<FlatCorner>& corners);
+  /// @param units  flats of each
+  FlatsLine(const ArcSpline& track, const std::vector<Facets>& units);
 
   [[nodiscard]] const ArcSpline& line() const { return line_; }
-  /// @return the place along the line of one on the track, and the other way round; both linear between corners
+  /// @return the place along the line of one on the track, and the other way round
   [[nodiscard]] double on_line(double s) const;
   [[nodiscard]] double on_track(double place) const;
-  [[nodiscard]] const std::vector<FlatCorner>& corners() const { return corners_; }
+  /// @return the end of the track
+  [[nodiscard]] double track_end() const { return places_.on_track.back(); }
   /// @return how far the corner nearest to a point (x, height) lies off the track [m]
   [[nodiscard]] double miss_at(Vec2 point) const;
 
  private:
-  std::vector<FlatCorner> corners_;
-  std::vector<double> places_;
+  /// Where flats meet, both ends of the line among them.
+  struct Corner {
+    Vec2 at;            ///< in the frame (x, height)
+    double miss = 0.0;  ///< from the track [m]
+  };
+  static std::vector<Corner> corners_of(const std::vector<Facets>& units);
+  static ArcSpline line_through(const std::vector<Corner>& corners);
+
+  std::vector<Corner> corners_;
   ArcSpline line_;
+  FlatPlaces places_;
 };
 
 /// A bent job as its plates see it: along their line of flats.

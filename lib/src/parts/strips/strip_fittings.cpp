@@ -376,7 +376,8 @@ std::vector<TilePlace> strip_tiles(const StripJob& job, const Span& unit, std::s
   // Seams between courses, and the ends of the liner, lie on one flat, too.
   room = {job.off_bends(room.from, 1.0, {low, high}), job.off_bends(room.to, -1.0, {low, high})};
   const OnOneArc seams(job.track, 0.5 * liner.gap, {low, high}, {}, bends);
-  return tile_places(job.options, widths_of(job.section), room, arcs, row, &seams);
+  return tile_places(job.options, widths_of(job.section), room, arcs, row, &seams, {},
+                     [&](double place) { return job.on_track(place); });
 }
 
 std::vector<std::vector<Circle>> holes_below(const StripJob& job, std::size_t unit,

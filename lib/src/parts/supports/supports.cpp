@@ -23,6 +23,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -41,6 +42,8 @@ constexpr double kAnchorInset = 25e-3;  // of anchor holes from the plate's edge
 constexpr double kBrace = 6e-3;         // flat bar 50 x 6
 constexpr double kBraceWidth = 50e-3;
 constexpr double kLeastLeg = 100e-3;
+constexpr double kOffTaken = 10e-3;                      // taste: of what is taken [m]
+constexpr double kLeastClear = kSaddleHalf + kOffTaken;  // of a trestle's middle from it [m]
 constexpr double kApart = 300e-3;  // of the first and last trestle from the ends, about [m]
 
 constexpr Vec3 kUp{0.0, 0.0, 1.0};
@@ -355,7 +358,7 @@ double clear_of(const Shell& shell, double at, double saddle_height) {
       width + options.flanges.gap + saddle_height - shell.lowest + std::max(0.0, -shell.lowest);
   const auto [sine, cosine] = math::sine_cosine(shell.track.at(at).slope_angle);
   const double reach = (0.5 * options.supports->tube + high * std::fabs(sine)) / std::max(0.1, cosine);
-  return std::max(kSaddleHalf, reach) + 10e-3;
+  return std::max(kLeastClear, reach + kOffTaken);
 }
 
 /// A place for a trestle near another one, and half of the length of its saddles.
@@ -552,44 +555,43 @@ class SideView {
   std::vector<Shape> shapes_;
 };
 
-/// Trestles beside each other, none on what is taken or on another one's base plates.
-class Row {
+/// Looks for places at which a trestle can stand.
+class TrestleSeats {
  public:
-  Row(const Shell& shell, const SideView& view) : shell_(shell), view_(view), taken_(shell.taken) {}
+  TrestleSeats(const Shell& shell, const SideView& view) : shell_(shell), view_(view) {}
 
-  /// Sets one at the free place nearest to one, unless it lies outside a span.
-  /// @return whether there is one there
-  bool set(double about, const Span& within) {
+  /// @param clear  that it keeps off what is taken, at the least [m]
+  /// @return the free place nearest to one, clear of what leans over it; none where that is none
+  [[nodiscard]] std::optional<Standing> near(double about, const TakenUp& taken, double clear,
+                                             int tries) const {
     constexpr double kFarther =
-        10e-3;                  // taste: that one keeps off more, where a frame stands over its beam [m]
-    constexpr int kTries = 12;  // budget
-    double clear = clear_of(shell_, about, saddles_at(shell_, about, 0.0).height[0]);
-    for (int k = 0; k < kTries; ++k, clear += kFarther) {
-      const auto one = standing_near(about, within, clear);
-      if (!one) return false;
-      // Where it is steeper there than where it was asked for, frames lean farther over it.
-      if (!view_.is_clear(one->trestle, shell_.options.supports->tube) || !saddles_clear(*one)) continue;
-      return add(*one);
+        10e-3;  // taste: that one keeps off more, where a frame stands over its beam [m]
+    for (int k = 0; k < tries; ++k, clear += kFarther) {
+      const auto place = free_place(shell_, taken, about, clear);
+      if (!place) return std::nullopt;
+      if (auto one = at(*place, clear)) return one;
     }
-    return false;
+    return std::nullopt;
   }
 
-  [[nodiscard]] const std::vector<Standing>& all() const { return all_; }
+  /// @return a trestle at a place; none where the track is too steep, or where it is steeper than where it was asked for, and frames
+  ///         lean farther over it
+  [[nodiscard]] std::optional<Standing> at(const TrestlePlace& place, double clear) const {
+    if (shell_.track.at(place.at).slope_angle > shell_.options.supports->steepest.radians())
+      return std::nullopt;
+    const Saddles saddles = saddles_at(shell_, place.at, place.half);
+    if (!seat_line(shell_, place.at, place.half, saddles.height[0]) ||
+        !seat_line(shell_, place.at, place.half, saddles.height[1]))
+      return std::nullopt;
+    Standing one{place, clear, saddles, trestle_at(shell_, place.at, saddles)};
+    if (!view_.is_clear(one.trestle, shell_.options.supports->tube) || !saddles_clear(one))
+      return std::nullopt;
+    return one;
+  }
+
+  [[nodiscard]] const Shell& shell() const { return shell_; }
 
  private:
-  /// @return one that keeps so far off what is taken; none where there is no place for it
-  [[nodiscard]] std::optional<Standing> standing_near(double about, const Span& within, double clear) const {
-    const auto place = free_place(shell_, taken_, about, clear);
-    if (!place || place->at < within.from || place->at > within.to) return std::nullopt;
-    if (shell_.track.at(place->at).slope_angle > shell_.options.supports->steepest.radians())
-      return std::nullopt;
-    const Saddles saddles = saddles_at(shell_, place->at, place->half);
-    if (!seat_line(shell_, place->at, place->half, saddles.height[0]) ||
-        !seat_line(shell_, place->at, place->half, saddles.height[1]))
-      return std::nullopt;
-    return Standing{*place, clear, saddles, trestle_at(shell_, place->at, saddles)};
-  }
-
   [[nodiscard]] bool saddles_clear(const Standing& one) const {
     for (std::size_t side = 0; side < 2; ++side) {
       const auto seat = seat_line(shell_, one.place.at, one.place.half, one.saddles.height[side]);
@@ -598,116 +600,178 @@ class Row {
     return true;
   }
 
-  bool add(const Standing& one) {
-    // Two of them on the only places that are free stand on each other's base plates.
-    const double apart = base_side(*shell_.options.supports) + kBaseGap;
-    if (std::any_of(all_.begin(), all_.end(), [&](const Standing& other) {
-          return std::fabs(one.trestle.x - other.trestle.x) < apart;
-        }))
-      return false;
-    taken_.add(one.place.at - one.clear, one.place.at + one.clear);
-    const auto after = std::find_if(all_.begin(), all_.end(),
-                                    [&](const Standing& other) { return other.place.at > one.place.at; });
-    all_.insert(after, one);
-    return true;
-  }
-
   const Shell& shell_;
   const SideView& view_;
-  TakenUp taken_;
-  std::vector<Standing> all_;  ///< from upstream to downstream
 };
 
-const Span kAnywhere{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-
-double place_in(const Shell& shell, double k, double gaps) {
-  return kApart + std::max(0.0, shell.track.length() - 2.0 * kApart) * k / gaps;
+/// Whether two trestles, one after the other, leave each other what they take up, and do not stand on each other's base plates.
+bool stand_beside(const Standing& a, const Standing& b, const SupportOptions& supports) {
+  constexpr double kSame = 1e-9;  // rounding [m]
+  return b.place.at - a.place.at >= a.clear + b.clear - kSame &&
+         std::fabs(b.trestle.x - a.trestle.x) >= base_side(supports) + kBaseGap;
 }
+
+using Trestles = std::vector<Standing>;  // from upstream to downstream
 
 /// In so many gaps, as even as what is taken allows; those that find no place are left out.
-std::vector<Standing> evenly_standing(const Shell& shell, const SideView& view, double gaps) {
-  Row row(shell, view);
-  for (double k = 0.0; k <= gaps; k += 1.0) (void)row.set(place_in(shell, k, gaps), kAnywhere);
-  return row.all();
+Trestles evenly_standing(const TrestleSeats& seats, double gaps) {
+  const Shell& shell = seats.shell();
+  const double room = std::max(0.0, shell.track.length() - 2.0 * kApart);
+  TakenUp taken = shell.taken;
+  constexpr int kTries = 12;  // budget
+  Trestles row;
+  for (double k = 0.0; k <= gaps; k += 1.0) {
+    const double about = kApart + room * k / gaps;
+    const auto one =
+        seats.near(about, taken, clear_of(shell, about, saddles_at(shell, about, 0.0).height[0]), kTries);
+    if (!one) continue;
+    const auto after = std::find_if(row.begin(), row.end(),
+                                    [&](const Standing& other) { return other.place.at > one->place.at; });
+    const SupportOptions& supports = *shell.options.supports;
+    // Two of them on the only places that are free stand on each other's base plates.
+    if (after != row.begin() && !stand_beside(*(after - 1), *one, supports)) continue;
+    if (after != row.end() && !stand_beside(*one, *after, supports)) continue;
+    taken.add(one->place.at - one->clear, one->place.at + one->clear);
+    row.insert(after, *one);
+  }
+  return row;
 }
 
-/// From the finish on; where the free place nearest to an even one is too far from the trestle before, the farthest that is
-/// not; one more where spans are left that are too wide.
-std::vector<Standing> closely_standing(const Shell& shell, const SideView& view, double gaps) {
-  constexpr double kStep = 10e-3;  // in which places are looked for [m]
-  const double spacing = shell.options.supports->spacing;
-  Row row(shell, view);
-  const auto set_between = [&](double from, double to, const Span& within) {
-    for (double at = from; at <= to; at += kStep) {
-      if (row.set(at, within)) return true;
-    }
-    return false;
+/// Every place at which one could stand, in steps.
+Trestles all_standing(const TrestleSeats& seats) {
+  constexpr double kStep = 10e-3;  // taste: in which places are looked for, no finer [m]
+  constexpr double kMost = 400.0;  // budget: of steps
+  constexpr int kTries = 3;        // budget: places farther off are those of other steps
+  const Shell& shell = seats.shell();
+  const double length = shell.track.length();
+  const double steps = std::clamp(std::ceil(length / kStep), 1.0, kMost);
+  Trestles all;
+  for (double k = 0.0; k <= steps; k += 1.0) {
+    // What leans over it is looked at from the side; of the rest it keeps off as a trestle below a level track.
+    if (auto one = seats.near(length * k / steps, shell.taken, kLeastClear, kTries))
+      all.push_back(*std::move(one));
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Standing& a, const Standing& b) {
+    return std::pair(a.place.at, a.clear) < std::pair(b.place.at, b.clear);
+  });
+  const auto same = [](const Standing& a, const Standing& b) { return a.place.at == b.place.at; };
+  all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  return all;
+}
+
+/// What a row falls short of what is asked for, and what it takes.
+struct RowCost {
+  double excess = 0.0;    ///< sum of squares of what spans are wider than asked for
+  std::size_t count = 0;  ///< of trestles
+  double uneven = 0.0;    ///< sum of squares of spans
+
+  /// @param span  one more; an end that sticks out counts twice: the moment of its weight, w a^2/2, is that of a span, w l^2/8
+  [[nodiscard]] RowCost with(double span, double spacing) const {
+    constexpr double kSame = 1e-9;  // rounding [m]
+    const double more = span > spacing + kSame ? span - spacing : 0.0;
+    return {excess + more * more, count, uneven + span * span};
+  }
+  /// Two of them at least, where they have places.
+  [[nodiscard]] bool operator<(const RowCost& other) const {
+    return std::pair(count < 2, std::tuple(excess, count, uneven)) <
+           std::pair(other.count < 2, std::tuple(other.excess, other.count, other.uneven));
+  }
+};
+
+RowCost cost_of(const Trestles& row, double spacing, double length) {
+  RowCost cost = RowCost().with(2.0 * row.front().place.at, spacing);
+  for (std::size_t i = 1; i < row.size(); ++i)
+    cost = cost.with(row[i].place.at - row[i - 1].place.at, spacing);
+  return cost.with(2.0 * (length - row.back().place.at), spacing);
+}
+
+/// Of all rows from these places that of the least cost.
+Trestles cheapest(const Trestles& all, const SupportOptions& supports, double length) {
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  // Of the rows that end with a trestle the cheapest one of one, and of more.
+  struct Way {
+    RowCost cost;
+    std::size_t from = kNone;
   };
-  for (double k = gaps; k >= 0.0; k -= 1.0) {
-    const double about = place_in(shell, k, gaps);
-    const double before = row.all().empty() ? shell.track.length() : row.all().front().place.at;
-    const Span near{row.all().empty() ? 0.0 : before - spacing, before};
-    if (row.set(about, near) || set_between(std::max(about, near.from), before, near)) continue;
-    (void)row.set(about, {0.0, near.from});
+  std::vector<Way> ways(all.size());
+  std::optional<Way> best;
+  std::size_t last = kNone;
+  const auto end_with = [&](std::size_t i, Way way) {
+    way.cost = way.cost.with(2.0 * (length - all[i].place.at), supports.spacing);
+    if (best && !(way.cost < best->cost)) return;
+    best = way;
+    last = i;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double at = all[i].place.at;
+    Way first{RowCost().with(2.0 * at, supports.spacing), kNone};
+    first.cost.count = 1;
+    std::optional<Way> joined;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!stand_beside(all[k], all[i], supports)) continue;
+      Way one{ways[k].cost.with(at - all[k].place.at, supports.spacing), k};
+      ++one.cost.count;
+      if (!joined || one.cost < joined->cost) joined = one;
+    }
+    end_with(i, first);
+    if (joined) end_with(i, *joined);
+    // What goes on from here has two or more, either way.
+    const auto as_part = [](const Way& way) {
+      return std::tuple(way.cost.excess, way.cost.count, way.cost.uneven);
+    };
+    ways[i] = joined && as_part(*joined) < as_part(first) ? *joined : first;
   }
-  for (std::size_t i = 1; i < row.all().size(); ++i) {
-    const double from = row.all()[i - 1].place.at;
-    const double to = row.all()[i].place.at;
-    if (to - from > spacing) (void)row.set(0.5 * (from + to), {from, to});
-  }
-  return row.all();
+  Trestles row;
+  std::size_t from = best ? best->from : kNone;
+  if (last != kNone) row.push_back(all[last]);
+  for (; from != kNone; from = ways[from].from) row.insert(row.begin(), all[from]);
+  return row;
 }
 
-/// The longest stretch of track between two trestles, by the later one's index; 0: there are no two.
-std::size_t widest_of(const std::vector<Standing>& all) {
+/// The fewest that are no farther apart than is asked for; where none are, those that come nearest to it.
+Trestles standing(const Shell& shell) {
+  const SupportOptions& supports = *shell.options.supports;
+  const double length = shell.track.length();
+  const double gaps = std::max(1.0, std::ceil((length - 2.0 * kApart) / supports.spacing - 1e-9));
+  const SideView view(shell);
+  const TrestleSeats seats(shell, view);
+  const Trestles even = evenly_standing(seats, gaps);
+  if (!even.empty() && cost_of(even, supports.spacing, length).excess == 0.0) return even;
+  Trestles all = all_standing(seats);
+  all.insert(all.end(), even.begin(), even.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Standing& a, const Standing& b) { return a.place.at < b.place.at; });
+  return cheapest(all, supports, length);
+}
+
+/// Says where trestles are farther apart than is asked for, and where track sticks out too far beyond them.
+void note_wide_spans(const Trestles& all, const Shell& shell) {
+  constexpr double kTold = 1e-3;  // [m]
+  if (all.empty()) return;
+  const double spacing = shell.options.supports->spacing;
+  const char* const why = ": frames, stiffeners, bends or other trestles leave no place ";
   std::size_t widest = 0;
   const auto span = [&](std::size_t i) { return all[i].place.at - all[i - 1].place.at; };
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (widest == 0 || span(i) > span(widest)) widest = i;
   }
-  return widest;
-}
-
-double widest_span(const std::vector<Standing>& all) {
-  const std::size_t widest = widest_of(all);
-  return widest == 0 ? 0.0 : all[widest].place.at - all[widest - 1].place.at;
-}
-
-/// The fewest that are no farther apart than is asked for; where none are, those that come nearest to it. Track that sticks out
-/// above the first one, and could stand on one, counts twice.
-std::vector<Standing> standing(const Shell& shell) {
-  constexpr double kMore = 4.0;
-  const double spacing = shell.options.supports->spacing;
-  const double gaps = std::max(1.0, std::ceil((shell.track.length() - 2.0 * kApart) / spacing - 1e-9));
-  const SideView view(shell);
-  std::vector<std::vector<Standing>> rows{evenly_standing(shell, view, gaps)};
-  if (rows.front().empty() || widest_span(rows.front()) <= spacing) return rows.front();
-  for (double more = 1.0; more <= kMore; more += 1.0)
-    rows.push_back(evenly_standing(shell, view, gaps + more));
-  for (double more = 0.0; more <= kMore; more += 1.0)
-    rows.push_back(closely_standing(shell, view, gaps + more));
-  double highest = std::numeric_limits<double>::infinity();
-  for (const auto& row : rows) highest = row.empty() ? highest : std::min(highest, row.front().place.at);
-  const auto widest = [&](const std::vector<Standing>& row) {
-    if (row.empty()) return std::numeric_limits<double>::infinity();
-    return std::max({widest_span(row), 2.0 * (row.front().place.at - highest), spacing});
+  if (widest > 0 && span(widest) > spacing + kTold) {
+    shell.workshop.notes.push_back(
+        "Trestles are up to " + length_text(span(widest), 3) + " apart along the track, from " +
+        length_text(all[widest - 1].place.at, 4) + " to " + length_text(all[widest].place.at, 4) +
+        ", for spacing: " + length_text(spacing) + why + "between.");
+  }
+  const double length = shell.track.length();
+  const auto tell = [&](double out, double at, const char* way) {
+    if (!(out > 0.5 * spacing + kTold)) return;
+    shell.workshop.notes.push_back("The track sticks out by " + length_text(out, 3) + " along it " + way +
+                                   " trestle, at " + length_text(at, 4) +
+                                   ", for half of spacing: " + length_text(spacing) + why +
+                                   "nearer to its end, or it is steeper there than " +
+                                   angle_text(shell.options.supports->steepest, 3) + ".");
   };
-  std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) {
-    return std::pair(widest(a), a.size()) < std::pair(widest(b), b.size());
-  });
-  return rows.front();
-}
-
-/// Says where trestles are farther apart than is asked for.
-void note_wide_spans(const std::vector<Standing>& all, double spacing, Workshop& workshop) {
-  constexpr double kTold = 1e-3;  // [m]
-  if (widest_span(all) <= spacing + kTold) return;
-  const std::size_t widest = widest_of(all);
-  workshop.notes.push_back("Trestles are up to " + length_text(widest_span(all), 3) +
-                           " apart along the track, from " + length_text(all[widest - 1].place.at, 4) +
-                           " to " + length_text(all[widest].place.at, 4) +
-                           ", for spacing: " + length_text(spacing) +
-                           ": frames, stiffeners, bends or other trestles leave no place between.");
+  tell(all.front().place.at, all.front().place.at, "above the first");
+  tell(length - all.back().place.at, all.back().place.at, "below the last");
 }
 
 }  // namespace
@@ -715,7 +779,10 @@ void note_wide_spans(const std::vector<Standing>& all, double spacing, Workshop&
 void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
   if (!shell.options.supports) return;
   const SupportOptions& supports = *shell.options.supports;
-  const std::vector<Standing> all = standing(shell);
+  const Trestles all = standing(shell);
+  std::vector<Foot> feet;
+  for (const Standing& one : all) feet.push_back({one.trestle.x, frame_of(shell, one.place.at).at.x});
+  require_on_ground(supports.ground, feet, "supports.ground", "a trestle");
   for (const Standing& one : all) require_room_for_legs(one.trestle, supports);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Standing& one = all[i];
@@ -728,7 +795,7 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
     rows.push_back(setting_out_point(shell.track, unit_at(shell, one.place.at), shell.placement,
                                      "support " + text, one.place.at));
   }
-  note_wide_spans(all, supports.spacing, shell.workshop);
+  note_wide_spans(all, shell);
   if (!all.empty()) return;
   if (flattest_of(shell.track) <= supports.steepest.radians()) {
     shell.workshop.notes.emplace_back(

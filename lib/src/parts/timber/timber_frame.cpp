@@ -396,10 +396,12 @@ std::vector<Leg> plan_legs(const TimberJob& job) {
   if (!(to > from)) return legs;
   const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / job.options.legs->spacing)));
   std::vector<Issue> issues;
+  std::vector<Foot> feet;
   for (int k = 0; k <= steps; ++k) {
     const auto place = place_below(job.track, height, from + (to - from) * k / steps);
     if (!place || std::fabs(job.track.at(*place).slope_angle) > kSteepest) continue;
     const Leg leg = leg_below(job, *place);
+    feet.push_back({leg.x, frame_at(job.track, leg.at).at.x});
     if (leg.length() < -kLeastPost) {
       issues.push_back({"legs.ground",
                         "ground: it lies " + length_text(-leg.length(), 3) +
@@ -409,6 +411,7 @@ std::vector<Leg> plan_legs(const TimberJob& job) {
     }
     if (std::min(leg.top_left.y, leg.top_right.y) - leg.ground >= kLeastPost) legs.push_back(leg);
   }
+  require_on_ground(job.options.legs->ground, feet, "legs.ground", "a leg");
   if (!issues.empty()) throw InputError(std::move(issues));
   return legs;
 }

@@ -103,7 +103,8 @@ struct Leg {
 
   [[nodiscard]] double length() const { return 0.5 * (top_left.y + top_right.y) - ground; }
 };
-/// @throws InputError where the ground lies above the underside of the bearers: names the place, by how much
+/// @throws InputError where the ground lies above the underside of the bearers, or its line ends before a leg: names the place, by how
+///         much
 [[nodiscard]] std::vector<Leg> plan_legs(const TimberJob& job);
 
 /// @return angle of the chord of a stretch of track [rad]

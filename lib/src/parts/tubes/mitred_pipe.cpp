@@ -575,8 +575,7 @@ std::vector<TubeOpening> cut_openings(const PipeJob& job, const Facets& facets, 
     }
   }
   const auto trough = job.side ? std::optional(TroughSide{*job.side, job.options.rim}) : std::nullopt;
-  return cut_tubes(job.options.inspection, rooms, trough, reached(facets).back() / job.track.length(),
-                   job.options.shop);
+  return cut_tubes(job.options.inspection, rooms, trough, flat_places(job.track, facets), job.options.shop);
 }
 
 void add_tube_lids(const PipeJob& job, const std::vector<GoreUnit>& units,
@@ -680,9 +679,10 @@ PartsProof prove(const PipeJob& job, const std::vector<GoreUnit>& units, const s
 
 std::vector<SettingOutPoint> mitres(const PipeJob& job, const Facets& facets,
                                     const std::vector<double>& joints) {
+  const FlatPlaces places = flat_places(job.track, facets);
   std::vector<SettingOutPoint> rows;
   for (std::size_t i = 0; i < facets.bends(); ++i) {
-    const double s = 0.5 * (facets.touches[i] + facets.touches[i + 1]);
+    const double s = places.corners[i + 1];
     rows.push_back(setting_out_point(job.track, segment_at(joints, s), job.placement,
                                      "mitre " + std::to_string(i + 1) + ", " +
                                          angle_text(Angle::from_radians(std::fabs(facets.kinks[i])), 4),
@@ -708,10 +708,9 @@ void list_tubes(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop
 }
 
 /// Track places of distances along the flats.
-std::vector<double> on_track(const Facets& facets, const std::vector<double>& joints, double length) {
-  const double all = reached(facets).back();
+std::vector<double> on_track(const FlatPlaces& flats, const std::vector<double>& joints) {
   std::vector<double> places;
-  for (const double joint : joints) places.push_back(length * (joint / all));
+  for (const double joint : joints) places.push_back(flats.track_at(joint));
   return places;
 }
 
@@ -783,7 +782,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   list_tubes(job, units, workshop);
   add_rings(job, units, workshop);
   set_on_tops(job, units, workshop);
-  build.joints = on_track(facets, joints, track.length());
+  build.joints = on_track(flat_places(track, facets), joints);
   workshop.setting_out = setting_out(track, build.joints, placement);
   TakenUp taken;
   add_tube_lids(job, units, openings, workshop, taken);

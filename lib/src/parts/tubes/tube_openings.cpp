@@ -78,14 +78,16 @@ std::string word_of(const std::optional<TroughSide>& trough) {
 }
 
 std::optional<Seat> nearest_seat(const InspectionOptions& opening, const std::vector<TubeRoom>& tubes,
-                                 const std::optional<TroughSide>& trough, double stretch, double lap) {
+                                 const std::optional<TroughSide>& trough, const FlatPlaces& flats,
+                                 double lap) {
   std::optional<Seat> best;
   double least = 0.0;
   const double reach = 0.5 * opening.length + lap;
+  const double at = flats.flats_at(opening.at);
   for (std::size_t i = 0; i < tubes.size(); ++i) {
     const Span room = lid_room(tubes[i], opening.height + 2.0 * lap, trough);
     if (!(room.to - room.from >= 2.0 * reach)) continue;
-    const double asked = stretch * opening.at - tubes[i].begins;
+    const double asked = at - tubes[i].begins;
     const double along = std::clamp(asked, room.from + reach, room.to - reach);
     if (best && std::fabs(along - asked) >= least) continue;
     least = std::fabs(along - asked);
@@ -145,19 +147,19 @@ std::optional<Issue> too_close(const std::vector<TubeOpening>& cut) {
 
 std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& openings,
                                    const std::vector<TubeRoom>& tubes,
-                                   const std::optional<TroughSide>& trough, double stretch,
+                                   const std::optional<TroughSide>& trough, const FlatPlaces& flats,
                                    const ShopLeast& shop) {
   std::vector<TubeOpening> cut;
   std::vector<Issue> issues;  // of each opening the first
   for (const InspectionOptions& opening : openings) {
     const double lap = lid_lap(opening, shop);
-    const auto seat = nearest_seat(opening, tubes, trough, stretch, lap);
+    const auto seat = nearest_seat(opening, tubes, trough, flats, lap);
     if (!seat) {
       issues.push_back(too_long(opening, tubes, trough, lap));
       continue;
     }
     const TubeRoom& room = tubes[seat->tube];
-    const double at = (room.begins + seat->along) / stretch;
+    const double at = flats.track_at(room.begins + seat->along);
     // It may not be moved out of reach of what it is there for.
     if (std::fabs(at - opening.at) > 0.5 * opening.length + lap) {
       issues.push_back(

@@ -5,6 +5,7 @@
 #include "glissade/parts/shop_part.hpp"
 #include "glissade/section/measures.hpp"
 
+#include "parts/bodies/facets.hpp"
 #include "parts/curves/offset_line.hpp"
 
 #include <cstddef>
@@ -41,13 +42,13 @@ struct TubeOpening {
 };
 
 /// Cuts openings and the holes of their bolts into tubes.
-/// @param stretch  of the flats per length of track
+/// @param flats  where places on the track lie along the tubes
 /// @throws InputError where one finds no place in the tubes near it, or two meet: the place or length that would do
 /// @param trough  what stands on half a one; none: whole tubes
 [[nodiscard]] std::vector<TubeOpening> cut_tubes(const std::vector<InspectionOptions>& openings,
                                                  const std::vector<TubeRoom>& tubes,
-                                                 const std::optional<TroughSide>& trough, double stretch,
-                                                 const ShopLeast& shop);
+                                                 const std::optional<TroughSide>& trough,
+                                                 const FlatPlaces& flats, const ShopLeast& shop);
 
 /// The lid of an opening as a rolled plate in the frame of its tube, its pattern seen from inside.
 [[nodiscard]] ShopPart tube_lid(const TubeOpening& opening, const TubeGore& tube,
