@@ -218,6 +218,14 @@ export: [stl, 3mf]
                             !Contains("unknown key") && !Contains("nothing makes any"));
     CHECK(count(message) == 1);
   }
+  for (const std::string nothing : {"stream: 3", "stream:", "stream: []"}) {
+    const std::string message =
+        problems_without({{"stream: {mass_flow: 60 t/h, bulk_density: 800 kg/m^3}", nothing},
+                          {"friction_angle: 20 deg, ", ""}});
+    INFO(message);
+    CHECK(count(message) == 1);
+    CHECK_THAT(message, StartsWith("d.yaml:4:") && !Contains("friction_angle is missing"));
+  }
   const std::string all = problems_without({slips[0], slips[1], slips[2], slips[3]});
   CHECK(count(all) == 4);
   CHECK_THAT(all, Contains("kind: slidng is not known") && Contains("kind: belts is not known") &&

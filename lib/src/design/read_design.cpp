@@ -473,7 +473,9 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.track = read_track(top, design.centerline.kind, findings);
   design.stream = read_stream(top, findings);
   design.materials = read_materials(top, nullptr, findings);
-  design.body = read_body(top, design.stream && design.stream->material, findings);
+  // Of a stream that cannot be read, nobody knows whether it names a material.
+  const bool friction_may_follow = design.stream ? design.stream->material.has_value() : top.has("stream");
+  design.body = read_body(top, friction_may_follow, findings);
   follow_material(design, findings);
   design.feed = read_feed(top, findings);
   design.hood = read_hood(top, findings);
