@@ -72,7 +72,7 @@ RedesignGoal goal_named(const std::string& text) {
 double positive(const std::string& text, Dimension dimension, const char* option) {
   const double value = option_value(text, dimension, option);
   if (value > 0.0) return value;
-  throw InputError({option, text + " is not positive", "", ""});
+  throw InputError({option, text + " is not positive", "", "a value above 0"});
 }
 
 RedesignOptions wanted(const RedesignArguments& options) {

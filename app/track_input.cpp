@@ -153,7 +153,7 @@ Design TrackInput::from_options(const std::optional<Friction>& default_friction)
   if (!(drop > 0.0) && entry_speed_.empty()) {
     throw InputError({"--drop", drop_ + " is not positive",
                       "It is how far the start lies above the finish; nothing but gravity drives the body.",
-                      ""});
+                      "a --drop above 0, or an --entry-speed with which the body climbs"});
   }
   design.track.start = {0.0, 0.0, drop};
   design.track.finish = {run, 0.0, 0.0};

@@ -84,6 +84,41 @@ TEST_CASE("a value of another dimension is refused by its name") {
       Catch::Matchers::Contains("has the unknown unit furlong") && Catch::Matchers::Contains("Try: 4 m"));
 }
 
+TEST_CASE("what to try for a value of a related quantity means what was written") {
+  const auto tried = [](const std::string& text, Dimension dimension) {
+    const std::string message = refusal(text, dimension);
+    return message.substr(message.rfind("Try: ") + 5);
+  };
+  // A gradient is a tangent.
+  CHECK(tried("30 %", Dimension::angle) == "16.7 deg, whose tangent is 30 %");
+  CHECK(tried("-30 %", Dimension::angle) == "-16.7 deg, whose tangent is -30 %");
+  CHECK(tried("17 deg", Dimension::number) == "0.3057, the tangent of 17 deg");
+  CHECK(tried("150 %", Dimension::acceleration) == "1.5 g");
+  CHECK(tried("9 m/s", Dimension::specific_energy) == "81 m^2/s^2, the square of 9 m/s");
+  CHECK(tried("81 m^2/s^2", Dimension::speed) == "9 m/s, the root of 81 m^2/s^2");
+  CHECK(tried("50 m", Dimension::per_length) == "0.02 1/m, the reciprocal of 50 m");
+  CHECK(tried("0.02 1/m", Dimension::length) == "50 m, the reciprocal of 0.02 1/m");
+  CHECK(tried("500 g", Dimension::mass) == "0.5 kg");
+  // Per something, or of something more, in the unit that was written.
+  CHECK(tried("650 kg", Dimension::mass_flow) == "650 kg/s, 650 kg/h or 650 kg/min");
+  CHECK(tried("650 t", Dimension::mass_flow) == "650 t/h or 650 t/min");
+  CHECK(tried("650 kg/h", Dimension::mass) == "650 kg");
+  CHECK(tried("20 km", Dimension::speed) == "20 km/h");
+  CHECK(tried("3 cm", Dimension::speed) == "0.03 m/s");
+  CHECK(tried("3 ft", Dimension::area) == "3 ft^2");
+  CHECK(tried("1.6 t", Dimension::density) == "1.6 t/m^3");
+  // A guess at a slip of the key, where nothing else can be meant.
+  CHECK(tried("17 mm", Dimension::angle) == "17 deg");
+}
+
+TEST_CASE("what to try for a unit of another trade is the same value") {
+  CHECK_THAT(refusal("60 mph", Dimension::speed), Catch::Matchers::EndsWith("Try: 26.8224 m/s"));
+  CHECK_THAT(refusal("50 gon", Dimension::angle), Catch::Matchers::EndsWith("Try: 45 deg"));
+  CHECK_THAT(refusal("2 bar", Dimension::pressure), Catch::Matchers::EndsWith("Try: 200000 Pa"));
+  CHECK_THAT(refusal("68 F", Dimension::temperature), Catch::Matchers::EndsWith("Try: 293.15 K"));
+  CHECK_THAT(refusal("2 g/cm^3", Dimension::density), Catch::Matchers::EndsWith("Try: 2000 kg/m^3"));
+}
+
 TEST_CASE("a character that only looks like a plain one is named, with what to write") {
   CHECK(refusal("11\u00a0deg", Dimension::angle) ==
         "width: 11<U+00A0>deg holds a no-break space (U+00A0)\n"

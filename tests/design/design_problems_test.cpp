@@ -1,6 +1,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/design/design.hpp"
+#include "glissade/trades/rules.hpp"
 
 #include "design/design_text.hpp"
 #include "support/catch.hpp"
@@ -8,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -16,6 +18,7 @@ namespace design_problems_test {
 using namespace glissade;
 using namespace glissade::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using Catch::Matchers::StartsWith;
 
 TEST_CASE("the design that the other tests break is sound") {
@@ -167,9 +170,192 @@ TEST_CASE("one value under the key of a list of frictions is told its own key fi
   CHECK_THAT(problems_of_friction("{angle: 1}"), Contains("Try: friction_angle: 1 deg" + list));
   CHECK_THAT(problems_of_friction("{lowest: 0.08, highest: 0.16}"),
              Contains("Try: friction_coefficient: {low: 0.08, nominal: 0.12, high: 0.16}" + list));
+  CHECK_THAT(problems_of_friction("{angle: 30 %}"), Contains("Try: friction_coefficient: 30 %" + list));
+  CHECK_THAT(problems_of_friction("{coefficient: 17 deg}"), Contains("Try: friction_angle: 17 deg" + list));
+  CHECK_THAT(problems_of_friction("300 %"), Contains("Try: friction_coefficient: 300 %" + list));
   CHECK_THAT(problems_of_friction("{value: 0.3}"), Contains("Try: friction_coefficient: 0.3" + list));
   CHECK_THAT(problems_of_friction("{from: 0, angle: 3}"), Contains("Try: [{from: 0 m, angle: 3 deg}"));
   CHECK_THAT(problems_of_friction("much"), Contains("Try: [{from: 0 m, angle: 3 deg}"));
+}
+
+TEST_CASE(
+    "a group whose kind is misspelt is told of itself alone: it is not missing, nor judged by another kind") {
+  // Every group that has a kind, and what stands beside it because of it.
+  const std::string text = R"(glissade: 1
+track: {start: {x: 0 m, z: 3 m}, finish: {x: 3 m, z: 0 m}}
+body: {kind: sliding, friction_angle: 20 deg, drag: 0.001 1/m, head_wind: 1 m/s}
+stream: {mass_flow: 60 t/h, bulk_density: 800 kg/m^3}
+feed: {kind: belt, belt_speed: 2 m/s, pulley_radius: 200 mm, drop: 300 mm}
+hood: {radius: 1.2 m, drop: 300 mm}
+cross_section: {kind: u-channel, width: 300 mm, wall_height: 200 mm, thickness: 3 mm}
+fabrication: {process: print, layer: 0.2 mm, rules: {leave_out: [print.bed]}}
+export: [stl, 3mf]
+)";
+  const auto problems_without = [&](const std::vector<std::pair<std::string, std::string>>& slips) {
+    std::string slipped = text;
+    for (const auto& [word, slip] : slips) slipped.replace(slipped.find(word), word.size(), slip);
+    return problems_of(slipped);
+  };
+  const auto count = [](const std::string& message) {
+    std::size_t lines = 0;
+    for (std::size_t at = message.find("d.yaml:"); at != std::string::npos;
+         at = message.find("d.yaml:", at + 1))
+      ++lines;
+    return lines;
+  };
+  const std::vector<std::pair<std::string, std::string>> slips = {
+      {"kind: sliding", "kind: slidng"},
+      {"kind: belt", "kind: belts"},
+      {"kind: u-channel", "kind: u-chanel"},
+      {"process: print", "process: prints"},
+      {"{kind: belt, belt_speed: 2 m/s, pulley_radius: 200 mm, drop: 300 mm}", "17 deg"}};
+  const std::string sound = problems_without({});
+  CHECK(sound.empty());
+  for (const auto& slip : slips) {
+    const std::string message = problems_without({slip});
+    INFO(message);
+    CHECK_THAT(message, !Contains("without a") && !Contains("there is no") && !Contains("needs one") &&
+                            !Contains("unknown key") && !Contains("nothing makes any"));
+    CHECK(count(message) == 1);
+  }
+  for (const std::string nothing : {"stream: 3", "stream:", "stream: []"}) {
+    const std::string message =
+        problems_without({{"stream: {mass_flow: 60 t/h, bulk_density: 800 kg/m^3}", nothing},
+                          {"friction_angle: 20 deg, ", ""}});
+    INFO(message);
+    CHECK(count(message) == 1);
+    CHECK_THAT(message, StartsWith("d.yaml:4:") && !Contains("friction_angle is missing"));
+  }
+  const std::string all = problems_without({slips[0], slips[1], slips[2], slips[3]});
+  CHECK(count(all) == 4);
+  CHECK_THAT(all, Contains("kind: slidng is not known") && Contains("kind: belts is not known") &&
+                      Contains("kind: u-chanel is not known") && Contains("process: prints is not known"));
+}
+
+TEST_CASE("of a centerline whose kind is not known, the track and the rules are judged by none") {
+  const auto with = [](const std::string& track, const std::string& rest) {
+    return problems_of("glissade: 1\ntrack: " + track + "\nbody: {friction_coefficient: 0.03}\n" + rest);
+  };
+  const std::string in_run =
+      "centerline: {kind: in-rn, gamma: 35 deg, alpha: 11 deg, r1: 93 m, t: 6.7 m, e1: 99 m}\n"
+      "gates: {count: 10}\nrules: {leave_out: [fis.in-run.load]}\n";
+  const std::string edge = with("{edge: {x: 0 m, z: 0 m}}", in_run);
+  CHECK_THAT(edge, StartsWith("d.yaml:4:20: kind: in-rn is not known") && EndsWith("Try: in-run"));
+  CHECK_THAT(
+      with("{start: {x: 0 m, z: 50 m}}", "centerline: segments\n"),
+      StartsWith("d.yaml:4:13: centerline is a single value, not a group of keys") && !Contains("finish"));
+  // What any kind would refuse is told at once.
+  CHECK_THAT(with("{edge: {x: 0 m, z: 0}}", in_run), Contains("z: 0 has no unit") && Contains("kind: in-rn"));
+  CHECK_THAT(with("{start: {x: 0 m, z: 1 m}, finish: {x: 0 m, z: 1 m}}", "centerline: {kind: fastets}\n"),
+             Contains("start and finish are the same point") && Contains("kind: fastets"));
+}
+
+TEST_CASE("a measure that is missing or misspelt hides nothing that is wrong with the others") {
+  const auto with = [](const std::string& measures) {
+    return problems_with("width: 400 mm, wall_height: 250 mm, thickness: 4 mm", measures);
+  };
+  const std::string thick = with("width: 400 mm, wall_height: 250 mm, thickness: 500 mm");
+  REQUIRE_THAT(thick, Contains("thickness: 500 mm"));
+  const std::string both = with("width: 400 mm, wall_hight: 250 mm, thickness: 500 mm");
+  CHECK_THAT(both, Contains("unknown key wall_hight") && Contains("wall_height is missing") &&
+                       Contains("thickness: 500 mm"));
+  // What hangs on the missing one is not guessed at.
+  CHECK_THAT(with("wdth: 400 mm, wall_height: 250 mm, thickness: 500 mm"), !Contains("thickness: 500 mm"));
+}
+
+TEST_CASE("a quantity that is a list or a group is refused with what it takes and an example") {
+  CHECK(problems_of(
+            "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 3 m, z: 0 m}}\n"
+            "body: {friction_angle: 17 deg, entry_speed: 2 m/s}\n"
+            "stream: {mass_flow: {}, bulk_density: 800 kg/m^3}\n"
+            "cross_section: {kind: u-channel, width: 900 mm, wall_height: 250 mm, thickness: 4 mm}\n") ==
+        "d.yaml:4:21: mass_flow is a group of keys, not a single value\n"
+        "      It takes a mass flow with its unit: t/h, kg/s, kg/h, kg/min, t/min or lb/h.\n"
+        "      Try: mass_flow: 650 t/h");
+  // One that is in there is what was meant.
+  CHECK_THAT(problems_with("thickness: 4 mm", "thickness: [4 mm]"), EndsWith("Try: thickness: 4 mm"));
+  CHECK_THAT(problems_with("tolerance: 0.5 mm", "tolerance: {value: 2 mm}"),
+             EndsWith("Try: tolerance: 2 mm"));
+  CHECK_THAT(problems_with("{kind: fastest}", "{kind: [fastest]}"), Contains("kind is a list, not a word") &&
+                                                                        Contains("It is one of") &&
+                                                                        Contains("Try: kind: fastest"));
+}
+
+TEST_CASE("every problem says what to try") {
+  for (const auto& [part, with] : std::vector<std::pair<std::string, std::string>>{
+           {"17 deg", "1e400 deg"},
+           {"17 deg", "{}"},
+           {"17 deg", "[]"},
+           {"name: Chute", "name: {}"},
+           {"kind: fastest", "kind: xyzzy"},
+           {"kind: fastest", "kind: fastest, xyzzy: 1"},
+           {"{x: 5.4 m, z: 1.1 m}", "{x: 0 m, z: 6.2 m}"},
+           {"[stl, off, scad]", "[xyzzy]"},
+           {"{tolerance: 0.5 mm}", "{tolerance: 0.5 mm, largest_kink: 40 deg}"},
+           {"mesh:", "limits: {headroom: -1 m}\nmesh:"},
+           {"mesh:", "limits: {arc_length: {highest: 1 m}}\nmesh:"},
+           {"mesh:",
+            "limits: {half_planes: [{line: [[0 m, 2 m], [5 m, 2 m]], stay: below, clearance: -1 m}]}\nmesh:"},
+           {"mesh:", "limits: {keep_outs: [{outline: [[0 m, 2 m]]}]}\nmesh:"},
+           {"mesh:", "limits: {stay_above: [{line: [[0 m, 2 m]]}]}\nmesh:"},
+           {"mesh:", "hill: {size: -1 m}\nmesh:"},
+           {"mesh:", "gates: {slow: {drag: -1 1/m}, start_area: 1 m}\nmesh:"},
+           {"{kind: fastest}", "{kind: segments, segments: [{length: -1 m}]}"},
+           {"{kind: fastest}", "{kind: segments, entry_slope_angle: 95 deg, segments: [{length: 1 m}]}"}}) {
+    const std::string message = problems_with(part, with);
+    INFO(part << " -> " << with << "\n" << message);
+    CHECK_FALSE(message.empty());
+    // Each begins with its place, and ends with its hint.
+    for (std::size_t at = message.find("d.yaml:"); at != std::string::npos;) {
+      const std::size_t next = message.find("\nd.yaml:", at);
+      CHECK_THAT(message.substr(at, next - at), Contains("      Try: "));
+      at = next == std::string::npos ? next : next + 1;
+    }
+  }
+  CHECK_THAT(problems_with("kind: fastest", "kind: xyzzy"),
+             Contains("It is one of fastest") && EndsWith("Try: one of these words"));
+  CHECK_THAT(problems_with("kind: fastest", "kind: fastest, xyzzy: 1"),
+             Contains("has the keys kind") && EndsWith("Try: one of these keys, or none"));
+}
+
+TEST_CASE("the advice for a rule of a workshop names what rules of a workshop may speak of") {
+  const auto with = [](const std::string& rule) {
+    return problems_with("mesh:", "fabrication: {process: plate, rules: {own: [" + rule + "]}}\nmesh:");
+  };
+  const std::string rest = ", id: own.a, sentence: A b., source: us, highest: 3 kg";
+  for (const std::string slip :
+       {"part_length", "arc_length", "part_mas", "exit_sped", "hole_pitch", "bend_radius"}) {
+    const std::string message = with("{quantity: " + slip + rest + "}");
+    INFO(message);
+    const std::string advice = message.substr(message.rfind("Try: ") + 5);
+    const std::string again = with("{quantity: " + advice + rest + "}");
+    if (rule_quantity(advice) != nullptr) CHECK_THAT(again, !Contains("is of tracks"));
+  }
+  CHECK_THAT(with("{quantity: part_mas" + rest + "}"), EndsWith("Try: part_mass"));
+  CHECK_THAT(with("{quantity: part_mass, when: 3" + rest + "}"),
+             EndsWith("Try: [{quantity: part_thickness, highest: 3 mm}]"));
+  CHECK_THAT(with("3"), EndsWith("quantity: part_mass, highest: 25 kg, source: ...}"));
+}
+
+TEST_CASE("a friction under the key of the other way to say it is sent there, or converted") {
+  const auto with = [](const std::string& body) {
+    return problems_with("body:\n  friction_angle: 17 deg", "body: {" + body + "}");
+  };
+  CHECK_THAT(with("friction_angle: 30 %"),
+             Contains("friction_angle: 30 % is a share, not an angle") &&
+                 EndsWith("Try: friction_coefficient: 30 %, or 16.7 deg, whose tangent is 30 %"));
+  CHECK_THAT(with("friction_coefficient: 17 deg"),
+             Contains("friction_coefficient: 17 deg is an angle, not a plain number") &&
+                 EndsWith("Try: friction_angle: 17 deg, or 0.3057, the tangent of 17 deg"));
+  CHECK_THAT(with("friction_angle: 0.3"), EndsWith("Try: friction_coefficient: 0.3, or 0.3 deg"));
+  CHECK_THAT(with("friction_angle: 17"), EndsWith("Try: 17 deg"));
+  CHECK_THAT(with("friction_angle: 17 mm"), EndsWith("Try: 17 deg"));
+  CHECK_THAT(with("friction: [{from: 0 m, coefficient: 4 deg}]"),
+             Contains("Try: angle: 4 deg, or 0.06993, the tangent"));
+  CHECK_THAT(with("friction_angle: {low: 10 %, nominal: 17 deg}"),
+             EndsWith("Try: 5.711 deg, whose tangent is 10 %"));
+  CHECK_THAT(with("kind: rolling, radius: 30 mm, rolling_resistance: 2 deg"),
+             Contains("Try: 0.03492, the tangent of 2 deg"));
 }
 
 TEST_CASE("friction steeper than the mean slope is infeasible, with what would do") {

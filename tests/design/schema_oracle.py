@@ -28,6 +28,9 @@ def spoilt(design):
     yield changed("a body's slip of the pen", lambda d: d.setdefault("body", {}).update(frction_angle="17 deg"))
     yield changed("a number without its unit", lambda d: d.update(gravity=9.8))
     yield changed("a unit of something else", lambda d: d.update(gravity="9.8 m"))
+    yield changed("no format of an export", lambda d: d.update(export=[]))
+    yield changed("a sheet of one side", lambda d: d.update(fabrication={"process": "plate", "split": {"sheet": ["3 m"]}}))
+    yield changed("a bolt of no size", lambda d: d.update(fabrication={"process": "plate", "flanges": {"bolt": "M11"}}))
     yield changed("a kind that there is not", lambda d: d["centerline"].update(kind="fastets"))
 
 

@@ -146,6 +146,54 @@ TEST_CASE("the schema refuses unknown keys, missing keys, wrong units, words and
   CHECK(with("mesh:", "probes: [{from_stat: 2 m}]\nmesh:") != "");
 }
 
+TEST_CASE("words that the reader takes from a table, and lengths of lists, are those of the schema") {
+  const auto with = [](const std::string& line) {
+    const std::string text = sound_design_with("mesh:", line + "\nmesh:");
+    const std::string fault = fault_of(text);
+    INFO(text << fault);
+    CHECK(reads(text, "d.yaml") == fault.empty());
+    return fault.empty();
+  };
+  const auto plate = [&](const std::string& keys) {
+    return with("fabrication: {process: plate, " + keys + "}");
+  };
+  for (const std::string group : {"flanges: {bolt: M", "rim: {width: 60 mm}, cover: {bolt: M",
+                                  "inspection: [{at: 2 m, bolt: M", "supports: {ground: 0 m, anchor: M"}) {
+    const std::string end = group.find('[') != std::string::npos ? "}]" : "}";
+    CHECK(plate(group + "10" + end));
+    CHECK_FALSE(plate(group + "11" + end));
+    CHECK_FALSE(plate(group + "none" + end));
+  }
+  const auto rule = [](const std::string& quantity, const std::string& bound) {
+    return "rules: {own: [{id: own.a, sentence: A., source: us, quantity: " + quantity +
+           ", highest: " + bound + "}]}";
+  };
+  CHECK(plate(rule("part_mass", "3 kg")));
+  CHECK_FALSE(plate(rule("part_length", "3 m")));
+  CHECK_FALSE(plate(rule("exit_speed", "3 m/s")));
+  CHECK(with(rule("exit_speed", "3 m/s")));
+  CHECK_FALSE(with(rule("part_mass", "3 kg")));
+  CHECK(plate("split: {sheet: [3 m, 1.5 m]}"));
+  CHECK_FALSE(plate("split: {sheet: [3 m]}"));
+  CHECK_FALSE(plate("split: {sheet: [3 m, 1.5 m, 1 m]}"));
+  CHECK(with("fabrication: {process: print, split: {bed: [420 mm, 420 mm, 450 mm]}}"));
+  CHECK_FALSE(with("fabrication: {process: print, split: {bed: [420 mm, 420 mm]}}"));
+  const auto keep_out = [](const std::string& points) {
+    return "limits: {keep_outs: [{outline: [" + points + "]}]}";
+  };
+  CHECK(with(keep_out("[1 m, 8 m], [2 m, 8 m], [2 m, 9 m]")));
+  CHECK_FALSE(with(keep_out("[1 m, 8 m], [2 m, 8 m]")));
+  CHECK_FALSE(with(keep_out("[1 m, 8 m], [2 m, 8 m], [2 m]")));
+  CHECK_FALSE(fault_of(sound_design_with("[stl, off, scad]", "[]")).empty());
+  for (const std::string columns : {"[x, z]", "[x, z, slope, curvature]"})
+    CHECK(fault_of(
+              sound_design_with("{kind: fastest}", "{kind: points, file: p.csv, columns: " + columns + "}"))
+              .empty());
+  CHECK_FALSE(
+      fault_of(sound_design_with("{kind: fastest}", "{kind: points, file: p.csv, columns: [x, z, slope]}"))
+          .empty());
+}
+
 TEST_CASE("what hangs on a kind is asked of that kind alone") {
   const auto section = [](const std::string& keys) {
     std::string text = sound_design_with("17 deg", "17 deg");

@@ -130,9 +130,9 @@ TEST_CASE(
 
 TEST_CASE("a liner by wear needs a stream, and a life a wear coefficient of the same plate") {
   const auto lined = [](const std::string& stream, const std::string& liner) {
-    return problems_of(sound_design_with(
-        "friction_angle: 17 deg",
-        "friction_angle: 17 deg\n  entry_speed: 2 m/s\n" + stream + "fabrication: {liner: {" + liner + "}}"));
+    return problems_of(sound_design_with("friction_angle: 17 deg",
+                                         "friction_angle: 17 deg\n  entry_speed: 2 m/s\n" + stream +
+                                             "fabrication: {process: plate, liner: {" + liner + "}}"));
   };
   const std::string stream = "stream: {mass_flow: 40 t/h, bulk_density: 780 kg/m^3";
   CHECK_THAT(lined("", "where: worn"), Contains("where: of a body that is no stream"));

@@ -1,6 +1,7 @@
 #include "glissade/design/write.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/design/template.hpp"
 
@@ -9,10 +10,12 @@
 #include "support/paths.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -221,6 +224,33 @@ TEST_CASE("a quantity is written as the shortest decimal that reads as the same 
       CHECK(parse_quantity(text, dimension, "it") == value);
     }
   }
+}
+
+TEST_CASE("a friction is written as what reads as the same bits, up to the roughest that a design may have") {
+  constexpr double kRoughest = 1e4;  // theory: the bound of docs/design-file.md
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const auto design_of = [](const std::string& body) {
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 2 m}, finish: {x: 0.1 mm, z: 0 m}}\nbody: {" + body + "}\n",
+        "steep.yaml");
+  };
+  for (int i = 0; i < 200; ++i) {
+    const double mu = kRoughest * std::pow(10.0, random.between(-6.0, 0.0));
+    const double angle = 180.0 / std::numbers::pi * std::atan(mu);
+    INFO(mu);
+    for (const int digits : {1, 2, 4, 6, 12, 17}) {
+      check_written(design_of("friction_coefficient: " + rounded_text(std::min(mu, kRoughest), digits)));
+      const double rounded = parse_quantity(rounded_text(angle, digits), Dimension::number, "");
+      if (rounded > 89.994) continue;
+      check_written(design_of("friction_angle: " + rounded_text(angle, digits) + " deg"));
+      check_written(design_of("friction: [{from: 0 m, angle: " + rounded_text(angle, digits) + " deg}]"));
+    }
+  }
+  for (const char* const text :
+       {"friction_angle: 86 deg", "friction_angle: 89.994 deg", "friction_coefficient: 10000",
+        "friction_angle: {low: 84 deg, nominal: 86 deg, high: 89.99 deg}"})
+    check_written(design_of(text));
 }
 
 TEST_CASE("a half-plane is written by the points that it was given by") {

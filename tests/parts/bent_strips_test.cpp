@@ -2,6 +2,7 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/io/step_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
@@ -412,6 +413,33 @@ TEST_CASE(
         return plates_of(chute(), high, punch);
       }).find("bend.inner_radius|inner_radius: 1 mm is less than the plate's thickness|Mild steel cracks") ==
       0);
+}
+
+TEST_CASE(
+    "bent strips: a punch too sharp for several plates is told of the thickest, and its radius does for "
+    "all") {
+  for (const section::Measures& measures : std::vector<section::Measures>{
+           section::Trapezoid{WidthLaw(0.4), 0.25, Angle::from_degrees(20.0), 4e-3},
+           section::UChannel{WidthLaw(0.4), 0.25, 4e-3}}) {
+    PlateOptions options = bent();
+    options.rim.emplace();
+    options.rim->thickness = 5e-3;
+    options.liner.emplace();
+    options.liner->thickness = 6e-3;
+    const auto radius_problem = [&](double radius) -> std::string {
+      options.bend.inner_radius = radius;
+      for (const Issue& issue : plate_problems(measures, options)) {
+        if (issue.where == "bend.inner_radius") return issue.what + "|" + issue.why + "|" + issue.hint;
+      }
+      return "";
+    };
+    for (const double sharp : {1e-3, 4.5e-3, 5.5e-3})
+      CHECK(radius_problem(sharp) ==
+            "inner_radius: " + length_text(sharp) +
+                " is less than the liner's thickness|Mild steel cracks below 6 mm (1 "
+                "thickness).|inner_radius: 6 mm");
+    CHECK(radius_problem(6e-3).empty());
+  }
 }
 
 }  // namespace bent_strips_test

@@ -412,7 +412,7 @@ TEST_CASE("fabrication: what a shop makes by its own rules is not refused, and w
   CHECK(with_rule(sharp, "plate.bend-radius, quantity: bend_radius_thicknesses, lowest: 0.5").empty());
   CHECK(with_rule("floor: bent, bend: {bends: 10}",
                   "plate.bend-radius, quantity: bend_radius_thicknesses, lowest: 2")
-            .find("Its rules ask for 8 mm (2 thicknesses) or more.") != std::string::npos);
+            .find("Its rules ask for 8 mm (2 thicknesses of the plate) or more.") != std::string::npos);
 }
 
 TEST_CASE("fabrication: bent floors keep to the least flat of the shop") {
@@ -440,9 +440,11 @@ TEST_CASE("fabrication: what cannot be made is refused at its place in the file"
             .find("chute.yaml:5:48: pitch: 20 mm is too close for M10") != std::string::npos);
   CHECK(refusal("{process: plate, split: {allowed: false}}")
             .find("chute.yaml:5:31: the floor of unit 1 takes 7.7") != std::string::npos);
-  CHECK(
-      refusal("{process: plate, flanges: {bolt: 10}}").find("chute.yaml:5:47: bolt: 10 is no metric bolt") !=
-      std::string::npos);
+  for (const std::string bolt : {"10", "M11", "m10"}) {
+    const std::string message = refusal("{process: plate, flanges: {bolt: " + bolt + "}}");
+    CHECK(message.find("chute.yaml:5:47: bolt: " + bolt + " is not known") != std::string::npos);
+    CHECK(message.find("It is one of M5, M6, M8, M10, M12, M16, M20 or M24.") != std::string::npos);
+  }
   CHECK(refusal("{process: plate, bend: {bends: 10, segment_length: 1 m}}").find("more than one rule") !=
         std::string::npos);
   CHECK(refusal("{process: casting}").find("plate") != std::string::npos);

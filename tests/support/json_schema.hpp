@@ -56,6 +56,11 @@ inline std::string word_fault(const std::string& word, const nlohmann::json& wan
     const bool fits = std::regex_search(value.get<std::string>(), std::regex(wanted.get<std::string>()));
     return fits ? "" : place + ": " + value.dump() + " does not fit";
   }
+  if (word == "minItems" || word == "maxItems") {
+    const bool few = word == "minItems" && value.is_array() && value.size() < wanted.get<std::size_t>();
+    const bool many = word == "maxItems" && value.is_array() && value.size() > wanted.get<std::size_t>();
+    return few || many ? place + ": has " + std::to_string(value.size()) + " items" : "";
+  }
   if (word == "items") {
     if (!value.is_array()) return "";
     for (std::size_t i = 0; i < value.size(); ++i) {

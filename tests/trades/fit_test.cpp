@@ -171,6 +171,9 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
   CHECK_THAT(problem_of("gate,speed\n1,85\n", "hills/garmisch_hs142.yaml"),
              Contains("there is no column \"speed_m_per_s\""));
   CHECK_THAT(problem_of("gate,speed_km_h\n1,85\n"), Contains("there is no column \"design\""));
+  CHECK_THAT(problem_of("x,z\n1,85\n"), Contains("there is no column \"design\"") &&
+                                            Contains("there is no column \"length_m\"") &&
+                                            Contains("there is no column \"speed_m_per_s\""));
   CHECK_THAT(problem_of("gate,speed_km_h\n1,fast\n", "hills/garmisch_hs142.yaml"), Contains("is no number"));
   const std::string hill = "hills/garmisch_hs142.yaml";
   for (const char* const nothing :

@@ -72,8 +72,9 @@ double scaled_length(double a, double b) {
 
 void require_positive(double value, const char* name, const char* unit) {
   if (std::isfinite(value) && value > 0.0) return;
-  throw InputError(
-      Issue{"", std::string(name) + ": " + exact_text(value) + unit + " is not positive and finite", "", ""});
+  throw InputError(Issue{"",
+                         std::string(name) + ": " + exact_text(value) + unit + " is not positive and finite",
+                         "", "a value above 0"});
 }
 
 void require_friction(Friction friction) {

@@ -40,12 +40,13 @@ void require_usable(Angle turn, double end_radius) {
     throw InputError(
         {"",
          "a cubic bend that turns by " + texts_apart(turn, CubicBend::kMostTurn).first + " is out of range",
-         "It turns by more than 0 and at most " + angle_text(CubicBend::kMostTurn) + ".", ""});
+         "It turns by more than 0 and at most " + angle_text(CubicBend::kMostTurn) + ".",
+         "several bends, of which each turns by less"});
   }
   if (!(end_radius > 0.0 && std::isfinite(end_radius))) {
     throw InputError(
         {"", "the radius of a cubic bend, " + exact_text(end_radius) + " m, is not positive and finite",
-         "It is the radius where the bend ends.", ""});
+         "It is the radius where the bend ends.", "a radius above 0 m"});
   }
 }
 

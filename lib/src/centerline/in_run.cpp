@@ -58,8 +58,8 @@ void check_angles(const InRunShape& shape, std::vector<Issue>& problems) {
 
 void check_length(const char* key, double value, const std::string& what, std::vector<Issue>& problems) {
   if (value > 0.0 && std::isfinite(value)) return;
-  problems.push_back(
-      {key, std::string(key) + ": " + length_text(value) + " is not positive and finite", what, ""});
+  problems.push_back({key, std::string(key) + ": " + length_text(value) + " is not positive and finite", what,
+                      std::string(key) + ": a length above 0 mm"});
 }
 
 std::vector<Issue> bend_problems(const InRunShape& shape) {

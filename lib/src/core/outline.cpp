@@ -77,12 +77,14 @@ std::optional<Issue> outline_fault(const std::vector<Vec2>& outline, const std::
     return Issue{"", name + ": " + what, why, hint};
   };
   if (outline.size() < 3 || outline.size() > kMostCorners) {
-    return fault(counted(outline.size(), "corner"), "An outline has between 3 and 2000 corners.", "");
+    return fault(counted(outline.size(), "corner"), "An outline has between 3 and 2000 corners.",
+                 "[[2 m, 3 m], [4 m, 3 m], [4 m, 5 m]]");
   }
   for (std::size_t index = 0; index < outline.size(); ++index) {
     const Vec2 corner = outline[index];
     if (std::fabs(corner.x) <= kFarthestCorner && std::fabs(corner.y) <= kFarthestCorner) continue;
-    return fault("corner " + std::to_string(index) + " is out of range", "Corners lie within 10000 km.", "");
+    return fault("corner " + std::to_string(index) + " is out of range", "Corners lie within 10000 km.",
+                 "a local origin, and the unit of each coordinate");
   }
   if (const auto repeated = repeated_corner(outline)) {
     return fault("corners " + pair_text(*repeated) + " are the same point",

@@ -1,5 +1,6 @@
 #include "glissade/core/quantity.hpp"
 
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/core/units.hpp"
@@ -222,16 +223,152 @@ std::string quotient_hint(std::string_view number, std::string_view unit_text, D
   return rounded_text(above / below, kDigits) + (unit.empty() ? "" : " ") + std::string(unit);
 }
 
+/// The number that digits say which have been read as one.
+double number_of(std::string_view digits) {
+  if (digits.starts_with('+')) digits.remove_prefix(1);
+  double number = 0.0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return number;
+}
+
+/// A spelling of other programs and trades, and what it is in SI units; theory: by its definition.
+struct ForeignUnit {
+  std::string_view text;
+  Dimension dimension;
+  double scale;
+  double zero = 0.0;
+};
+
+constexpr std::array kForeignUnits = {
+    ForeignUnit{"mph", Dimension::speed, 0.44704},
+    ForeignUnit{"kmh", Dimension::speed, 1.0 / 3.6},
+    ForeignUnit{"kph", Dimension::speed, 1.0 / 3.6},
+    ForeignUnit{"kn", Dimension::speed, 1852.0 / 3600.0},
+    ForeignUnit{"kt", Dimension::speed, 1852.0 / 3600.0},
+    ForeignUnit{"m/min", Dimension::speed, 1.0 / 60.0},
+    ForeignUnit{"fpm", Dimension::speed, 0.3048 / 60.0},
+    ForeignUnit{"ft/min", Dimension::speed, 0.3048 / 60.0},
+    ForeignUnit{"dm", Dimension::length, 0.1},
+    ForeignUnit{"inch", Dimension::length, 0.0254},
+    ForeignUnit{"\"", Dimension::length, 0.0254},
+    ForeignUnit{"'", Dimension::length, 0.3048},
+    ForeignUnit{"yd", Dimension::length, 0.9144},
+    ForeignUnit{"mi", Dimension::length, 1609.344},
+    ForeignUnit{"grad", Dimension::angle, Angle::from_degrees(0.9).radians()},
+    ForeignUnit{"gon", Dimension::angle, Angle::from_degrees(0.9).radians()},
+    ForeignUnit{"mrad", Dimension::angle, 1e-3},
+    ForeignUnit{"mm^2", Dimension::area, 1e-6},
+    ForeignUnit{"us", Dimension::time, 1e-6},
+    ForeignUnit{"lbs", Dimension::mass, 0.45359237},
+    ForeignUnit{"tph", Dimension::mass_flow, 1.0 / 3.6},
+    ForeignUnit{"g/cm^3", Dimension::density, 1e3},
+    ForeignUnit{"kg/l", Dimension::density, 1e3},
+    ForeignUnit{"kg/dm^3", Dimension::density, 1e3},
+    ForeignUnit{"lb/ft^3", Dimension::density, 16.018463},
+    ForeignUnit{"F", Dimension::temperature, 1.0 / 1.8, 459.67 / 1.8},
+    ForeignUnit{"degF", Dimension::temperature, 1.0 / 1.8, 459.67 / 1.8},
+    ForeignUnit{"C", Dimension::temperature, 1.0, 273.15},
+    ForeignUnit{"bar", Dimension::pressure, 1e5},
+    ForeignUnit{"mbar", Dimension::pressure, 1e2},
+    ForeignUnit{"psi", Dimension::pressure, 6894.757},
+    ForeignUnit{"N/mm^2", Dimension::pressure, 1e6},
+    ForeignUnit{"N/m^2", Dimension::pressure, 1.0},
+};
+
+/// A value in the unit of another trade, in one that is known; empty for any other unit.
+std::string translated(std::string_view digits, std::string_view unit_text, Dimension dimension) {
+  constexpr int kDigits = 6;  // taste
+  const double number = number_of(digits);
+  for (const ForeignUnit& unit : kForeignUnits) {
+    if (unit.text == unit_text && unit.dimension == dimension)
+      return quantity_text(number * unit.scale + unit.zero, dimension, kDigits);
+  }
+  return {};
+}
+
+/// Two dimensions of which one is the other per something, or of something more.
+bool are_related(Dimension a, Dimension b) {
+  constexpr std::array<std::pair<Dimension, Dimension>, 7> kRelated = {{
+      {Dimension::length, Dimension::speed},
+      {Dimension::length, Dimension::area},
+      {Dimension::speed, Dimension::acceleration},
+      {Dimension::mass, Dimension::mass_flow},
+      {Dimension::mass, Dimension::density},
+      {Dimension::per_length, Dimension::per_area},
+      {Dimension::time, Dimension::time_per_speed},
+  }};
+  return std::any_of(kRelated.begin(), kRelated.end(),
+                     [&](const auto& pair) { return pair == std::pair(a, b) || pair == std::pair(b, a); });
+}
+
+/// The same digits in the units that say the one given with more, or with less: "650 kg" as a mass flow is "650 kg/s,
+/// 650 kg/h or 650 kg/min". Where there is no such unit, the value in SI units.
+std::string in_related_units(double number, std::string_view digits, const Unit& unit, Dimension dimension) {
+  constexpr int kDigits = 6;  // taste
+  const auto goes_on = [](std::string_view whole, std::string_view part) {
+    return whole.size() > part.size() && whole.starts_with(part) &&
+           (whole[part.size()] == '/' || whole[part.size()] == '^');
+  };
+  std::vector<std::string> texts;
+  for (const std::string_view other : listed_units_of(dimension)) {
+    if (goes_on(other, unit.text) || goes_on(unit.text, other))
+      texts.push_back(std::string(digits).append(" ").append(other));
+  }
+  if (!texts.empty()) return listed(texts, "or");
+  const auto si = std::find_if(kUnits.begin(), kUnits.end(), [&](const Unit& one) {
+    return one.dimension == dimension && one.multiply == one.divide;
+  });
+  return rounded_text(number * unit.multiply / unit.divide, kDigits) + " " + std::string(si->text);
+}
+
+/// What a value in the unit of another dimension says of this one, where there is a law between them: a gradient is the
+/// tangent of an angle. Empty where there is none.
+std::string by_law(double value, std::string_view text, Dimension from, Dimension to) {
+  const auto is = [&](Dimension a, Dimension b) { return from == a && to == b; };
+  const std::string given(text);
+  if (is(Dimension::number, Dimension::angle)) {
+    const double angle = math::atan(value);
+    return quantity_beyond(angle, to, {-kRightAngle, kRightAngle}) + ", whose tangent is " + given;
+  }
+  if (is(Dimension::angle, Dimension::number) && std::fabs(value) < kRightAngle)
+    return quantity_text(math::tan(value), to) + ", the tangent of " + given;
+  if (is(Dimension::number, Dimension::acceleration)) return rounded_text(value, 6) + " g";
+  if (is(Dimension::speed, Dimension::specific_energy))
+    return quantity_text(value * value, to) + ", the square of " + given;
+  if (is(Dimension::specific_energy, Dimension::speed) && value >= 0.0)
+    return quantity_text(std::sqrt(value), to) + ", the root of " + given;
+  const bool reciprocal =
+      is(Dimension::length, Dimension::per_length) || is(Dimension::per_length, Dimension::length);
+  if (reciprocal && std::isfinite(1.0 / value))
+    return quantity_text(1.0 / value, to) + ", the reciprocal of " + given;
+  return {};
+}
+
+/// What to try for a value whose unit is of another dimension: what it says of this one, or else its digits.
+std::string of_this_dimension(std::string_view text, std::string_view digits, const Unit& unit,
+                              Dimension dimension) {
+  const double number = number_of(digits);
+  const double value = number * unit.multiply / unit.divide + unit.zero;
+  if (!std::isfinite(value)) return example(digits, dimension);
+  // Of a mass, that is grams.
+  if (unit.text == "g" && dimension == Dimension::mass) return rounded_text(number / 1e3, 6) + " kg";
+  const std::string meant = by_law(value, text, unit.dimension, dimension);
+  if (!meant.empty()) return meant;
+  if (are_related(unit.dimension, dimension)) return in_related_units(number, digits, unit, dimension);
+  return example(digits, dimension);
+}
+
 Issue wrong_unit(std::string_view name, std::string_view text, std::string_view number,
                  std::string_view unit_text, Dimension dimension) {
   if (const Unit* unit = find_unit(unit_text)) {
     const bool is_share = unit->dimension == Dimension::number;
     const std::string what = is_share ? "a share" : with_article(unit->dimension);
     return {"", named(name, text) + " is " + what + ", not " + with_article(dimension),
-            units_that_fit(dimension), example(number, dimension)};
+            units_that_fit(dimension), of_this_dimension(text, number, *unit, dimension)};
   }
   Issue issue{"", named(name, text) + " has the unknown unit " + shown(unit_text), units_that_fit(dimension),
-              example(number, dimension)};
+              translated(number, unit_text, dimension)};
+  if (issue.hint.empty()) issue.hint = example(number, dimension);
   if (unit_text.front() == ',') issue.hint = "a decimal point instead of the comma";
   if (unit_text.front() == '/') {
     issue.why = "A value is one decimal number, not a quotient. " + issue.why;
@@ -240,9 +377,9 @@ Issue wrong_unit(std::string_view name, std::string_view text, std::string_view 
   return issue;
 }
 
-Issue beyond_numbers(std::string_view name, std::string_view text) {
+Issue beyond_numbers(std::string_view name, std::string_view text, Dimension dimension) {
   return {"", named(name, text) + " is beyond the range of numbers",
-          "Numbers reach from about 1e-308 to 1e308.", ""};
+          "Numbers reach from about 1e-308 to 1e308.", example("1.5", dimension)};
 }
 
 /// What is wrong with a text that reads as a quantity, or comes nearer to one, once its odd characters are
@@ -270,7 +407,7 @@ std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimen
   double number = 0.0;
   const char* const end = digits.data() + digits.size();
   const auto [rest, error] = std::from_chars(digits.data(), end, number);
-  if (error == std::errc::result_out_of_range) return beyond_numbers(name, text);
+  if (error == std::errc::result_out_of_range) return beyond_numbers(name, text, dimension);
   if (error != std::errc{}) return not_a_number(name, text, dimension);
   if (!std::isfinite(number)) {
     return Issue{"", named(name, text) + " is not finite", units_that_fit(dimension),
@@ -289,7 +426,7 @@ std::variant<double, Issue> read_quantity(std::string_view text, Dimension dimen
     return wrong_unit(name, text, number_text, unit_text, dimension);
   }
   const double value = number * unit->multiply / unit->divide + unit->zero;
-  if (!std::isfinite(value)) return beyond_numbers(name, text);
+  if (!std::isfinite(value)) return beyond_numbers(name, text, dimension);
   return value;
 }
 
@@ -389,8 +526,23 @@ std::string quantity_beyond(double value, Dimension dimension, std::initializer_
   return text_beyond(value, bounds, text);
 }
 
+namespace {
+
+/// What lies within bounds; empty where there are none.
+std::string within(Dimension dimension, std::initializer_list<double> bounds) {
+  if (bounds.size() == 0) return {};
+  const double least = std::min(bounds);
+  const double most = std::max(bounds);
+  const std::string lowest = quantity_text(least, dimension);
+  if (bounds.size() == 1 || !std::isfinite(most)) return lowest + " or more";
+  return "a value from " + lowest + " to " + quantity_text(most, dimension);
+}
+
+}  // namespace
+
 Issue out_of_range(std::string_view name, double value, Dimension dimension,
                    std::initializer_list<double> bounds, std::string why, std::string hint) {
+  if (hint.empty()) hint = within(dimension, bounds);
   return {"", std::string(name) + ": " + quantity_beyond(value, dimension, bounds) + " is out of range",
           std::move(why), std::move(hint)};
 }

@@ -5,10 +5,15 @@
 #include "glissade/core/number_text.hpp"
 
 #include "design/checks.hpp"
+#include "design/schema_words.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace glissade::design_file {
 
@@ -55,6 +60,149 @@ std::vector<Finding> check_values(const Design& design) {
   check_export(design, findings);
   check_limits(design, findings);
   return findings;
+}
+
+namespace {
+
+/// Adds the design with something in a group that could not be read.
+template <typename Group>
+void add_with(const Design& design, std::optional<Group> Design::*member, const std::vector<Group>& groups,
+              const Findings& reading, std::string_view key, std::vector<Design>& designs) {
+  if (design.*member || !reading.spoiled(key)) return;
+  for (const Group& group : groups) {
+    designs.push_back(design);
+    designs.back().*member = group;
+  }
+}
+
+std::vector<FeedDesign> all_feeds() {
+  std::vector<FeedDesign> feeds(3);
+  feeds[0].kind = FeedKind::belt;
+  feeds[1].kind = FeedKind::hopper;
+  feeds[2].kind = FeedKind::free_fall;
+  return feeds;
+}
+
+std::vector<FabricationDesign> all_fabrications() {
+  std::vector<FabricationDesign> all(3);
+  all[0].process = PlateOptions{};
+  all[1].process = PrintOptions{};
+  all[2].process = TimberOptions{};
+  return all;
+}
+
+/// A body that slides into the track, of a range of frictions, in air.
+BodyDesign body_of_everything() {
+  BodyDesign body;
+  body.low_friction = Friction();
+  body.high_friction = body.friction;
+  body.entry_speed = 1.0;
+  body.drag = DragDesign{};
+  body.drag->drag_area = 1.0;
+  body.drag->mass = 1.0;
+  body.drag_per_metre = body.drag->drag_per_metre();
+  return body;
+}
+
+/// The designs that a file may mean some of whose groups could not be read.
+std::vector<Design> designs_meant(const Design& design, const Findings& reading) {
+  std::vector<Design> designs;
+  const section::UChannel channel{1.0, 1.0, 0.01};
+  add_with(design, &Design::stream, {StreamDesign{}}, reading, "stream", designs);
+  add_with(design, &Design::feed, all_feeds(), reading, "feed", designs);
+  add_with(design, &Design::hood, {HoodDesign{}}, reading, "hood", designs);
+  add_with(design, &Design::limits, {Limits{}}, reading, "limits", designs);
+  add_with(design, &Design::cross_section, {CrossSectionDesign(channel)}, reading, "cross_section", designs);
+  add_with(design, &Design::fabrication, all_fabrications(), reading, "fabrication", designs);
+  if (reading.spoiled("body.kind")) {
+    designs.push_back(design);
+    designs.back().body = body_of_everything();
+  }
+  if (reading.spoiled("centerline.kind")) {
+    for (const auto& [name, kind] : centerline_words()) {
+      designs.push_back(design);
+      designs.back().centerline.kind = kind;
+    }
+  }
+  return designs;
+}
+
+void keep_common(std::vector<Finding>& findings, const std::vector<Finding>& others) {
+  std::erase_if(findings, [&](const Finding& finding) {
+    return std::none_of(others.begin(), others.end(), [&](const Finding& one) {
+      return one.key_paths == finding.key_paths && one.issue.what == finding.issue.what;
+    });
+  });
+}
+
+/// Gives a length to every measure of a section that could not be read, and notes its key path.
+class MeasureFill {
+ public:
+  MeasureFill(double length, const Findings& reading) : length_(length), reading_(reading) {}
+
+  void width(const char* key, WidthLaw& law, const char*) {
+    if (is_unread(key)) law = length_;
+  }
+  void length(const char* key, double& value, const char*) {
+    if (is_unread(key)) value = length_;
+  }
+  void optional_length(const char*, double&) const {}
+  void angle(const char*, Angle&, const char*) const {}
+  void corners(const char*, std::vector<Vec2>&, const char*) const {}
+  void misnomer(const char*, const char*) const {}
+
+  [[nodiscard]] const std::vector<std::string>& filled() const { return filled_; }
+
+ private:
+  [[nodiscard]] bool is_unread(const char* key) {
+    const std::string path = std::string("cross_section.") + key;
+    if (!reading_.spoiled(path)) return false;
+    filled_.push_back(path);
+    return true;
+  }
+
+  double length_;
+  const Findings& reading_;
+  std::vector<std::string> filled_;
+};
+
+/// What is wrong with a section one of whose measures could not be read, whatever that measure is.
+std::vector<Finding> findings_of_other_measures(const Design& design, const Findings& reading) {
+  std::vector<Finding> sure;
+  if (!design.cross_section || !reading.spoiled("cross_section")) return sure;
+  for (const double length : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0}) {  // taste: what sections measure [m]
+    CrossSectionDesign section = *design.cross_section;
+    MeasureFill fill(length, reading);
+    section::visit_measures(section, fill);
+    if (fill.filled().empty()) return {};
+    Design other;
+    other.cross_section = section;
+    Collected there;
+    check_cross_section(other, there);
+    // It does not hang on what was filled in.
+    for (Finding& finding : there) {
+      std::erase_if(finding.key_paths, [&](const std::string& path) {
+        return std::find(fill.filled().begin(), fill.filled().end(), path) != fill.filled().end();
+      });
+    }
+    std::erase_if(there, [](const Finding& finding) { return finding.key_paths.empty(); });
+    if (length == 1e-3) sure = there;
+    keep_common(sure, there);
+  }
+  return sure;
+}
+
+}  // namespace
+
+std::vector<Finding> sure_findings(const Design& design, const Findings& reading) {
+  std::vector<Finding> sure = check_values(design);
+  if (reading.empty()) return sure;
+  for (const Design& other : designs_meant(design, reading)) {
+    if (sure.empty()) break;
+    keep_common(sure, check_values(other));
+  }
+  for (Finding& finding : findings_of_other_measures(design, reading)) sure.push_back(std::move(finding));
+  return sure;
 }
 
 namespace {

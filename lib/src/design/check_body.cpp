@@ -75,7 +75,8 @@ void check_friction_changes(const Design& design, Collected& findings) {
     if (changes[i - 1].from < changes[i].from && std::isfinite(changes[i].from)) continue;
     report(findings, {"body.friction." + std::to_string(i) + ".from", "body.friction"},
            {"", "from: " + length_text(changes[i].from) + " after " + length_text(changes[i - 1].from),
-            "Entries stand in the order of the track, each from further on than the one before.", ""});
+            "Entries stand in the order of the track, each from further on than the one before.",
+            "the entries in ascending order of from"});
   }
 }
 

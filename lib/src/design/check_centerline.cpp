@@ -24,13 +24,13 @@ void check_segment(const SegmentDesign& segment, const std::string& key_path, Co
                         "A segment is longer than 0 mm and at most 1000 km.", ""));
   }
   if (!std::isfinite(segment.entry_curvature) || !std::isfinite(segment.exit_curvature)) {
-    report(findings, {key_path}, {"", "the curvature is not finite", "", ""});
+    report(findings, {key_path}, {"", "the curvature is not finite", "", "a radius above 0 m"});
   }
   const double leads_to = segment.to_slope_angle.value_or(Angle()).radians();
   if (!(std::fabs(leads_to) <= kRightAngle)) {
     report(findings, {key_path + ".to_slope_angle"},
            {"", "to_slope_angle: " + overhanging(*segment.to_slope_angle) + " overhangs",
-            "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
+            "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", "35 deg"});
   }
 }
 
@@ -40,7 +40,7 @@ bool check_entry(const CenterlineDesign& centerline, Collected& findings) {
   if (std::fabs(slope) <= kRightAngle + kRounding) return true;
   report(findings, {"centerline.entry_slope_angle"},
          {"", "entry_slope_angle: " + overhanging(centerline.entry_slope_angle) + " overhangs",
-          "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", ""});
+          "A slope angle lies between -90 deg (straight up) and 90 deg (straight down).", "35 deg"});
   return false;
 }
 

@@ -69,7 +69,7 @@ class MeasureCheck {
     if (at >= 0.0 && at <= kLongestTrack) return;
     const std::string place = quantity_beyond(at, Dimension::length, {0.0, kLongestTrack});
     add(key, {"", key + ": the place at " + place + " is out of range",
-              "It is an arc length along the track, from 0 m to 1000 km.", ""});
+              "It is an arc length along the track, from 0 m to 1000 km.", "at: 2 m"});
   }
 
   Collected& findings_;

@@ -91,7 +91,8 @@ void check_hill(const Design& design, Collected& findings) {
   const auto positive = [&](const std::string& key, const std::optional<double>& value,
                             const std::string& text) {
     if (!value || (*value > 0.0 && std::isfinite(*value))) return;
-    report(findings, {"hill." + key}, {"", key + ": " + text + " is not positive", "", ""});
+    report(findings, {"hill." + key},
+           {"", key + ": " + text + " is not positive", "", "a value above 0, or no " + key});
   };
   const auto length = [&](const std::string& key, const std::optional<double>& value) {
     positive(key, value, length_text(value.value_or(0.0)));

@@ -119,7 +119,7 @@ void check_speeds(const Design& design, Collected& findings) {
   if (!(limits.lowest_speed_from >= 0.0)) {
     report(findings, {path("speed.lowest_from")},
            {"", "speed.lowest_from: " + length_text(limits.lowest_speed_from) + " is negative",
-            "It is an arc length from the start.", ""});
+            "It is an arc length from the start.", "0 m, or no lowest_from"});
   }
   check_entry_speed(design, findings);
 }
@@ -134,7 +134,7 @@ void check_lengths(const Design& design, Collected& findings) {
   if (searched && design.track.free_finish == FinishKind::point && *longest < distance) {
     report(findings, {path("arc_length"), "track"},
            {"", "arc_length: at most " + most + " is shorter than the straight line, " + straight,
-            "No track is.", ""});
+            "No track is.", "arc_length: at least " + straight});
   }
   if (limits.lowest_speed_from >= *longest && limits.speed.lowest) {
     report(findings, {path("speed.lowest_from"), path("speed"), path("arc_length")},
@@ -148,7 +148,7 @@ void check_lengths(const Design& design, Collected& findings) {
            {"",
             "arc_length: at most " + length_text(*longest) + " leaves no room for lead_in and lead_out, " +
                 length_text(limits.lead_in + limits.lead_out),
-            "The straight pieces count too.", ""});
+            "The straight pieces count too.", "a longer arc_length, or shorter pieces"});
   }
 }
 
@@ -164,7 +164,8 @@ void check_clearance(double clearance, const std::string& key, Collected& findin
 void check_line(const std::vector<Vec2>& line, const std::string& key, Collected& findings) {
   if (line.size() < 2) {
     report(findings, {path(key) + ".line"},
-           {"", "line: " + core::counted(line.size(), "point"), "A line has at least two.", ""});
+           {"", "line: " + core::counted(line.size(), "point"), "A line has at least two.",
+            "[[0 m, 2 m], [5 m, 2 m]]"});
     return;
   }
   for (std::size_t index = 1; index < line.size(); ++index) {

@@ -39,6 +39,9 @@ class Findings {
   /// Adds a problem between values, unless one of them has a problem of its own already.
   void add_unless_spoiled(Finding finding);
 
+  /// @return whether there is a problem at the key path, below it or above it
+  [[nodiscard]] bool spoiled(std::string_view key_path) const;
+
   /// Notes a file that the design names.
   void add_data_file(DataFile file) { data_files_.push_back(std::move(file)); }
   [[nodiscard]] const std::vector<DataFile>& data_files() const { return data_files_; }
@@ -64,8 +67,6 @@ class Findings {
   };
 
   static constexpr std::size_t kMostReported = 100;
-
-  [[nodiscard]] bool spoiled(std::string_view key_path) const;
 
   std::filesystem::path file_;
   const std::vector<Override>& overrides_;

@@ -31,11 +31,11 @@ std::string child_path(std::string_view parent, std::string_view key) {
   return parent.empty() ? std::string(key) : std::string(parent).append(".").append(key);
 }
 
-void add_wrong_type(const Value& value, std::string_view wanted, std::string_view example,
-                    Findings& findings) {
+void add_wrong_type(const Value& value, std::string_view wanted, std::string_view example, Findings& findings,
+                    std::string why = "") {
   const std::string name = value.key.empty() ? "the design" : value.key;
   std::string what = name + " is " + std::string(kind_of(*value.node)) + ", not " + std::string(wanted);
-  Issue issue{"", std::move(what), "", std::string(example)};
+  Issue issue{"", std::move(what), std::move(why), std::string(example)};
   // A colon with an odd blank behind it parts no key from its value.
   const auto odd = odd_character(value.node->scalar);
   if (odd) {
@@ -43,6 +43,33 @@ void add_wrong_type(const Value& value, std::string_view wanted, std::string_vie
     issue.hint = with_plain_characters(value.node->scalar);
   }
   findings.add(value.node->at, value.key_path, std::move(issue));
+}
+
+/// The first value in a list or a group that reads as a quantity: whoever wrote one there means it.
+std::string quantity_within(const Node& node, Dimension dimension) {
+  std::vector<const Node*> values;
+  for (const Node& item : node.items) values.push_back(&item);
+  for (const Entry& entry : node.entries) values.push_back(&entry.value);
+  for (const Node* const one : values) {
+    if (one->kind != Node::Kind::scalar) continue;
+    if (std::holds_alternative<double>(read_quantity(one->scalar, dimension, ""))) return one->scalar;
+  }
+  return {};
+}
+
+/// What could stand where a quantity is asked for and is none at all.
+std::string example_of(const Value& value, Dimension dimension) {
+  const std::string within = quantity_within(*value.node, dimension);
+  if (!within.empty()) return value.key + ": " + within;
+  if (!value.example.empty()) return value.example;
+  constexpr double kSome = 1.5;  // taste
+  return value.key + ": " + quantity_text(kSome, dimension);
+}
+
+void add_no_quantity(const Value& value, Dimension dimension, Findings& findings) {
+  // Of no text at all, what is wrong is told with the units that fit.
+  const Issue units = std::get<Issue>(read_quantity("", dimension, value.key));
+  add_wrong_type(value, "a single value", example_of(value, dimension), findings, units.why);
 }
 
 std::string trimmed(const std::string& text) {
@@ -55,7 +82,7 @@ std::string trimmed(const std::string& text) {
 std::optional<double> as_quantity(const Value& value, Dimension dimension, Findings& findings) {
   if (Notes* const notes = findings.notes()) notes->quantity(value.key_path, dimension);
   if (value.node->kind != Node::Kind::scalar) {
-    add_wrong_type(value, "a single value", "", findings);
+    add_no_quantity(value, dimension, findings);
     return {};
   }
   std::variant<double, Issue> reading = read_quantity(value.node->scalar, dimension, value.key);
@@ -72,7 +99,8 @@ bool is_word(const Value& value, std::string_view word, Findings& findings) {
 std::optional<std::string> as_text(const Value& value, Findings& findings) {
   if (Notes* const notes = findings.notes()) notes->text(value.key_path);
   if (value.node->kind == Node::Kind::scalar) return value.node->scalar;
-  add_wrong_type(value, "a text", "", findings);
+  add_wrong_type(value, "a text", value.example.empty() ? value.key + ": a text, in quotes" : value.example,
+                 findings);
   return {};
 }
 
@@ -89,8 +117,9 @@ std::optional<bool> as_flag(const Value& value, Findings& findings) {
   return {};
 }
 
-std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings) {
-  if (Notes* const notes = findings.notes()) notes->list(value.key_path);
+std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings,
+                           const ItemCounts& counts) {
+  if (Notes* const notes = findings.notes()) notes->list(value.key_path, counts);
   if (value.node->kind != Node::Kind::sequence) {
     add_wrong_type(value, "a list", example, findings);
     return {};
@@ -120,7 +149,7 @@ std::string pair_like(const Node& node) {
 }  // namespace
 
 std::optional<Vec2> as_point(const Value& value, Findings& findings) {
-  const std::vector<Value> numbers = as_list(value, pair_like(*value.node), findings);
+  const std::vector<Value> numbers = as_list(value, pair_like(*value.node), findings, {.exactly = {2}});
   if (value.node->kind != Node::Kind::sequence) return {};
   if (numbers.size() != 2) {
     findings.add(value.node->at, value.key_path,
@@ -134,9 +163,10 @@ std::optional<Vec2> as_point(const Value& value, Findings& findings) {
   return Vec2{*first, *second};
 }
 
-std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings) {
+std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings,
+                            const ItemCounts& counts) {
   std::vector<Vec2> points;
-  for (const Value& item : as_list(value, example, findings)) {
+  for (const Value& item : as_list(value, example, findings, counts)) {
     if (const auto point = as_point(item, findings)) points.push_back(*point);
   }
   return points;
@@ -212,7 +242,9 @@ std::optional<Value> MapReader::need(std::string_view key, std::string_view exam
         {"", std::string(key) + " is missing", std::string(noun_) + " needs it.", std::string(example)});
     findings_.set_position(path_of(key), findings_.position(key_path_));
   }
-  return find(key);
+  std::optional<Value> value = find(key);
+  if (value) value->example = example;
+  return value;
 }
 
 std::optional<double> MapReader::quantity(std::string_view key, Dimension dimension) {
@@ -230,8 +262,12 @@ std::optional<std::size_t> MapReader::choose(const Value& value, const std::vect
   if (Notes* const notes = findings_.notes()) {
     for (const std::string_view word : words) notes->word(value.key_path, word);
   }
-  const std::optional<std::string> text = as_text(value, findings_);
-  if (!text) return {};
+  const std::string allowed = "It is one of " + listed(words, "or") + ".";
+  if (value.node->kind != Node::Kind::scalar) {
+    add_wrong_type(value, "a word", value.key + ": " + std::string(words.front()), findings_, allowed);
+    return {};
+  }
+  const std::string* const text = &value.node->scalar;
   const auto found = std::find(words.begin(), words.end(), *text);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   const std::string plain = trimmed(with_plain_characters(*text));
@@ -239,7 +275,7 @@ std::optional<std::size_t> MapReader::choose(const Value& value, const std::vect
   std::string what = value.key + ": " + shown(*text) + " is not known";
   if (const auto odd = odd_character(*text)) what += "; it holds " + odd->name;
   findings_.add(value.node->at, value.key_path,
-                {"", std::move(what), "It is one of " + listed(words, "or") + ".", std::string(near)});
+                {"", std::move(what), allowed, near.empty() ? "one of these words" : std::string(near)});
   return {};
 }
 
@@ -261,7 +297,7 @@ Issue MapReader::unknown_key(const std::string& key) const {
     return issue;
   }
   const std::string_view near = nearest_word(key, keys);
-  if (!near.empty()) issue.hint = std::string(near);
+  issue.hint = near.empty() ? "one of these keys, or none" : std::string(near);
   const bool after_comma = !key.empty() && key.front() >= '0' && key.front() <= '9';
   if (after_comma) issue.hint = "a decimal point, if the comma before it was meant as one";
   return issue;

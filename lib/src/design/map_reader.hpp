@@ -20,6 +20,7 @@ struct Value {
   const Node* node = nullptr;
   std::string key;
   std::string key_path;
+  std::string example{};  ///< what could stand there: "mass_flow: 650 t/h"; empty where nothing is known
 };
 
 /// Each reads a value, or adds a finding and returns none.
@@ -31,9 +32,12 @@ struct Value {
 /// A pair of lengths: [5.4 m, 1.1 m].
 [[nodiscard]] std::optional<Vec2> as_point(const Value& value, Findings& findings);
 /// A list of such pairs.
-[[nodiscard]] std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings);
+[[nodiscard]] std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings,
+                                          const ItemCounts& counts = {});
 /// @param example  what such a list looks like, for the hint
-[[nodiscard]] std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings);
+/// @param counts   how many items it may have, for the schema: whoever asks holds the list to it
+[[nodiscard]] std::vector<Value> as_list(const Value& value, std::string_view example, Findings& findings,
+                                         const ItemCounts& counts = {});
 
 /// Reads the entries of one map: every key that is asked for is known, any other is a problem.
 class MapReader {

@@ -20,6 +20,11 @@ void Notes::word(const std::string& path, std::string_view word) {
   add_new(places_[path].words, std::string(word));
 }
 
+void Notes::list(const std::string& path, const ItemCounts& counts) {
+  places_[path].list = true;
+  places_[path].items = counts;
+}
+
 void Notes::key(const std::string& path, std::string_view key, bool needed) {
   Noted& noted = places_[path];
   add_new(noted.keys, std::string(key));

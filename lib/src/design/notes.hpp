@@ -2,12 +2,19 @@
 
 #include "glissade/core/quantity.hpp"
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace glissade::design_file {
+
+/// How many items a list may have.
+struct ItemCounts {
+  std::vector<std::size_t> exactly{};  ///< one of these; none: as many as one likes, from `least` on
+  std::size_t least = 0;
+};
 
 /// What a reading asked of one place of a design file.
 struct Noted {
@@ -16,6 +23,7 @@ struct Noted {
   bool text = false;                      ///< any text
   bool flag = false;                      ///< true or false
   bool list = false;                      ///< a list; its items have places of their own
+  ItemCounts items;                       ///< of the list
   bool map = false;                       ///< a group of keys
   std::vector<std::string> keys;          ///< of the group, in their order
   std::map<std::string, bool> is_needed;  ///< whether the group must have the key
@@ -28,7 +36,7 @@ class Notes {
   void word(const std::string& path, std::string_view word);
   void text(const std::string& path) { places_[path].text = true; }
   void flag(const std::string& path) { places_[path].flag = true; }
-  void list(const std::string& path) { places_[path].list = true; }
+  void list(const std::string& path, const ItemCounts& counts);
   void map(const std::string& path) { places_[path].map = true; }
   /// Asking for a key once without need makes it one that may be left out.
   void key(const std::string& path, std::string_view key, bool needed);

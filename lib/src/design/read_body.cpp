@@ -14,10 +14,43 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace glissade::design_file {
 namespace {
+
+std::optional<double> read_as(const Node& node, Dimension dimension) {
+  if (node.kind != Node::Kind::scalar) return {};
+  try {
+    return parse_quantity(node.scalar, dimension, "");
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+bool is_share(const Node& node) {
+  return node.scalar.ends_with('%');
+}
+
+// Larger numbers without a unit are degrees that nobody wrote.
+constexpr double kLargestCoefficient = 2.0;  // taste
+
+/// The key for the other way to say a friction; empty where there is none.
+std::string_view other_friction_key(std::string_view key) {
+  if (key == "friction_angle") return "friction_coefficient";
+  if (key == "friction_coefficient") return "friction_angle";
+  if (key == "angle") return "coefficient";
+  return key == "coefficient" ? "angle" : "";
+}
+
+/// Whether a value says a friction in the other way.
+bool says_the_other_way(const Node& node, Dimension dimension) {
+  if (read_as(node, dimension)) return false;
+  if (dimension == Dimension::number) return read_as(node, Dimension::angle).has_value();
+  const auto number = read_as(node, Dimension::number);
+  return number && (is_share(node) || (*number > 0.0 && *number <= kLargestCoefficient));
+}
 
 /// A friction angle or coefficient: one value, or a range with a nominal value.
 struct FrictionValues {
@@ -29,7 +62,7 @@ struct FrictionValues {
 FrictionValues read_friction_values(const Value& value, Dimension dimension, Findings& findings) {
   FrictionValues values;
   if (value.node->kind != Node::Kind::map) {
-    values.nominal = as_quantity(value, dimension, findings);
+    values.nominal = as_friction(value, dimension, findings);
     return values;
   }
   MapReader map(value, "A friction range", "", findings);
@@ -64,17 +97,19 @@ Issue friction_beyond(double value, bool by_coefficient, const std::string& key_
       "the angle at which the material just starts to slide on the track, often 10 to 40 deg"};
 }
 
+std::optional<Friction> friction_of_coefficient(double mu) {
+  if (!(mu >= 0.0 && mu <= kRoughest)) return {};
+  return Friction::from_coefficient(mu);
+}
+
 std::optional<Friction> to_friction(const std::optional<double>& value, bool by_coefficient,
                                     const std::string& key_path, Findings& findings) {
   if (!value) return {};
-  if (!(*value >= 0.0 && *value <= (by_coefficient ? kRoughest : math::atan(kRoughest)))) {
+  const std::optional<Friction> friction =
+      by_coefficient ? friction_of_coefficient(*value) : friction_of_angle(*value);
+  if (!friction)
     findings.add(findings.position(key_path), key_path, friction_beyond(*value, by_coefficient, key_path));
-    return {};
-  }
-  const Friction friction =
-      by_coefficient ? Friction::from_coefficient(*value) : Friction::from_angle(Angle::from_radians(*value));
-  // tan(atan(kRoughest)) may lie a rounding above it.
-  return friction.coefficient() > kRoughest ? Friction::from_coefficient(kRoughest) : friction;
+  return friction;
 }
 
 /// The same as values of the schema; none where a value is missing or bad.
@@ -135,21 +170,12 @@ std::optional<FrictionFrom> read_friction_from(const Value& value, Findings& fin
   }
   std::optional<Friction> friction;
   if (const auto& given = coefficient ? coefficient : angle) {
-    const auto number = as_quantity(*given, coefficient ? Dimension::number : Dimension::angle, findings);
+    const auto number = as_friction(*given, coefficient ? Dimension::number : Dimension::angle, findings);
     friction = to_friction(number, coefficient.has_value(), given->key_path, findings);
   }
   map.refuse_unknown_keys();
   if (!from || !friction) return {};
   return FrictionFrom{*from, *friction};
-}
-
-std::optional<double> read_as(const Node& node, Dimension dimension) {
-  if (node.kind != Node::Kind::scalar) return {};
-  try {
-    return parse_quantity(node.scalar, dimension, "");
-  } catch (const InputError&) {
-    return {};
-  }
 }
 
 /// A range of friction with the keys that it has, whatever those are that were written: "{low: 0.08, nominal: 0.12, high: 0.16}".
@@ -174,17 +200,16 @@ std::string range_meant(const Node& node, Dimension dimension, const std::string
 /// One value under a key of the list's items, as the key for the whole track has it: "friction_angle: 3 deg". Empty where it is
 /// none.
 std::string friction_of_key(const Entry& entry) {
-  const bool by_coefficient = entry.key == "coefficient";
   const bool number = read_as(entry.value, Dimension::number).has_value();
-  if (!number && (by_coefficient || !read_as(entry.value, Dimension::angle))) return {};
-  return "friction_" + entry.key + ": " + entry.value.scalar + (by_coefficient || !number ? "" : " deg");
+  if (!number && !read_as(entry.value, Dimension::angle)) return {};
+  const bool by_coefficient = number && (entry.key == "coefficient" || is_share(entry.value));
+  return (by_coefficient ? "friction_coefficient: " : "friction_angle: ") + entry.value.scalar +
+         (number && !by_coefficient ? " deg" : "");
 }
 
 /// A friction for the whole track that was given under the key of a list, as its own key has it: "friction_coefficient: 0.3".
 /// Empty where it is none.
 std::string friction_meant(const Node& node) {
-  // Larger numbers without a unit are degrees that nobody wrote.
-  constexpr double kLargestCoefficient = 2.0;  // taste
   const bool range = node.kind == Node::Kind::map;
   const auto is_friction = [](const Entry& entry) {
     return entry.key == "angle" || entry.key == "coefficient";
@@ -202,9 +227,10 @@ std::string friction_meant(const Node& node) {
   const bool numbers = all([](const Node* one) { return read_as(*one, Dimension::number).has_value(); });
   if (!numbers && !all([](const Node* one) { return read_as(*one, Dimension::angle).has_value(); }))
     return {};
-  const bool coefficients = numbers && all([](const Node* one) {
-                              return *read_as(*one, Dimension::number) <= kLargestCoefficient;
-                            });
+  const bool coefficients =
+      numbers && all([](const Node* one) {
+        return is_share(*one) || *read_as(*one, Dimension::number) <= kLargestCoefficient;
+      });
   const std::string unit = numbers && !coefficients ? " deg" : "";
   const std::string shown = node.entries.size() > 1
                                 ? range_meant(node, numbers ? Dimension::number : Dimension::angle, unit)
@@ -217,7 +243,7 @@ void read_friction_list(const Value& value, BodyDesign& body, Findings& findings
   // Whoever writes one value means the whole track.
   const std::string meant = friction_meant(*value.node);
   const std::string example = (meant.empty() ? "" : meant + ", or friction: ") + std::string(kExample);
-  for (const Value& item : as_list(value, example, findings)) {
+  for (const Value& item : as_list(value, example, findings, {.least = 1})) {
     if (const auto change = read_friction_from(item, findings)) body.friction_changes.push_back(*change);
   }
   if (body.friction_changes.empty()) {
@@ -430,6 +456,23 @@ const std::vector<std::string_view>& body_keys() {
     return all;
   }();
   return keys;
+}
+
+std::optional<double> as_friction(const Value& value, Dimension dimension, Findings& findings) {
+  const std::string other(other_friction_key(value.key));
+  if (other.empty() || !says_the_other_way(*value.node, dimension))
+    return as_quantity(value, dimension, findings);
+  Issue issue = std::get<Issue>(read_quantity(value.node->scalar, dimension, value.key));
+  issue.hint = other + ": " + value.node->scalar + (issue.hint.empty() ? "" : ", or " + issue.hint);
+  findings.add(value.node->at, value.key_path, std::move(issue));
+  return {};
+}
+
+std::optional<Friction> friction_of_angle(double angle) {
+  if (!(angle >= 0.0 && angle <= math::atan(kRoughest))) return {};
+  // tan(atan(kRoughest)) may lie a rounding above it.
+  return Friction::from_coefficient(
+      std::min(Friction::from_angle(Angle::from_radians(angle)).coefficient(), kRoughest));
 }
 
 BodyDesign read_body(MapReader& top, bool friction_may_follow, Findings& findings) {

@@ -28,7 +28,7 @@ std::optional<WidthAt> read_width_at(const Value& value, Findings& findings) {
 std::optional<WidthLaw> read_widths(const Value& value, Findings& findings) {
   std::vector<WidthAt> knots;
   bool sound = true;
-  for (const Value& item : as_list(value, kWidthsExample, findings)) {
+  for (const Value& item : as_list(value, kWidthsExample, findings, {.least = 1})) {
     const std::optional<WidthAt> knot = read_width_at(item, findings);
     sound = sound && knot.has_value();
     if (knot) knots.push_back(*knot);
@@ -68,7 +68,8 @@ class MeasureReader {
     value = Angle::from_radians(needed(key, Dimension::angle, example));
   }
   void corners(const char* key, std::vector<Vec2>& values, const char* example) {
-    if (const auto list = map_.need(key, example)) values = as_points(*list, example, findings_);
+    if (const auto list = map_.need(key, example))
+      values = as_points(*list, example, findings_, {.least = 3});
   }
   void misnomer(const char* key, const char* right) { map_.add_stranger(key, right); }
 

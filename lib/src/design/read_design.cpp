@@ -235,12 +235,40 @@ void note_free_start(const Value& start, Findings& findings) {
   }
 }
 
+/// A track of which nothing is known but that some kind of centerline may ask for what it has.
+/// @return none where it is not the one that most kinds ask for: from a start to a finish
+std::optional<TrackDesign> read_track_of_any_kind(const Value& value, Findings& findings) {
+  MapReader map(value, "A track", "{start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}", findings);
+  map.expect({"start", "finish", "edge", "azimuth"});
+  const auto start = map.find("start");
+  const auto finish = map.find("finish");
+  const auto edge = map.find("edge");
+  TrackDesign track;
+  if (edge) static_cast<void>(read_position(*edge, "An edge", findings));
+  if (edge && start) read_start_to_edge(start, track, findings);
+  if (start && !edge) track.start = read_position(*start, "A start", findings);
+  if (finish) read_finish(*finish, track, findings);
+  static_cast<void>(map.quantity("azimuth", Dimension::angle));
+  map.refuse_unknown_keys();
+  if (edge || !start || !finish) return {};
+  return track;
+}
+
+/// Any track that there is nothing to say against.
+TrackDesign some_track() {
+  TrackDesign track;
+  track.finish = {1.0, 0.0, -1.0};
+  return track;
+}
+
 /// @param kind  some say themselves where they end
 TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) {
   TrackDesign track;
   const std::optional<Value> value =
       top.need("track", "track: {start: {x: 0 m, z: 6.2 m}, finish: {x: 5.4 m, z: 1.1 m}}");
   if (!value) return track;
+  if (findings.spoiled("centerline.kind"))
+    return read_track_of_any_kind(*value, findings).value_or(some_track());
   if (kind == CenterlineKind::in_run) return read_track_of_in_run(*value, findings);
   const bool finish_may_follow = is_drawn(kind);
   const bool to_edge = kind == CenterlineKind::fastest && value->node->kind == Node::Kind::map &&
@@ -268,7 +296,7 @@ TrackDesign read_track(MapReader& top, CenterlineKind kind, Findings& findings) 
 void read_point_columns(MapReader& map, CenterlineDesign& centerline, Findings& findings) {
   const auto value = map.find("columns");
   if (!value) return;
-  const std::vector<Value> columns = as_list(*value, "[x, z]", findings);
+  const std::vector<Value> columns = as_list(*value, "[x, z]", findings, {.exactly = {2, 4}});
   if (columns.size() == 2 || columns.size() == 4) {
     centerline.points_distance_column = as_text(columns[0], findings).value_or("");
     centerline.points_height_column = as_text(columns[1], findings).value_or("");
@@ -347,7 +375,7 @@ MeshDesign read_mesh(MapReader& top, Findings& findings) {
 
 void read_formats(MapReader& top, const Value& list, ExportDesign& exports, Findings& findings) {
   exports.formats.clear();
-  for (const Value& item : as_list(list, "[stl, off, scad]", findings)) {
+  for (const Value& item : as_list(list, "[stl, off, scad]", findings, {.least = 1})) {
     if (item.node->kind == Node::Kind::scalar && item.node->scalar == "report") {
       findings.add(
           item.node->at, item.key_path,
@@ -445,7 +473,9 @@ Design design_file::read_tree(const Node& root, const std::filesystem::path& fil
   design.track = read_track(top, design.centerline.kind, findings);
   design.stream = read_stream(top, findings);
   design.materials = read_materials(top, nullptr, findings);
-  design.body = read_body(top, design.stream && design.stream->material, findings);
+  // Of a stream that cannot be read, nobody knows whether it names a material.
+  const bool friction_may_follow = design.stream ? design.stream->material.has_value() : top.has("stream");
+  design.body = read_body(top, friction_may_follow, findings);
   follow_material(design, findings);
   design.feed = read_feed(top, findings);
   design.hood = read_hood(top, findings);
@@ -514,7 +544,7 @@ Design DesignSource::with(const std::vector<Override>& overrides, ReachCheck rea
   Node root = parsed_->root;
   apply_overrides(root, overrides, findings);
   Design design = read_tree(root, parsed_->file, findings);
-  for (Finding& finding : check_values(design)) findings.add_unless_spoiled(std::move(finding));
+  for (Finding& finding : sure_findings(design, findings)) findings.add_unless_spoiled(std::move(finding));
   complete_finish(design, findings);
   const bool well_formed = findings.empty();
   if (reach == ReachCheck::yes) {

@@ -88,17 +88,21 @@ std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::fil
     map.add_stranger(key, place);
   map.expect({"process", "material", "arc_tolerance", "rules"});
   FabricationDesign design;
-  Process kind = Process::plate;
-  if (const auto process = map.need("process", "process: plate")) {
-    kind =
-        map.choice<Process>(
-               *process, {{"plate", Process::plate}, {"print", Process::print}, {"timber", Process::timber}})
-            .value_or(kind);
-  }
+  const auto word = map.need("process", "process: plate");
+  const auto kind =
+      word ? map.choice<Process>(
+                 *word, {{"plate", Process::plate}, {"print", Process::print}, {"timber", Process::timber}})
+           : std::nullopt;
   const auto material = map.find("material");
   const auto rules = map.find("rules");
   const auto tolerance = map.quantity("arc_tolerance", Dimension::length);
-  switch (kind) {
+  if (!kind) {
+    // Which keys belong to it is not known.
+    if (material) static_cast<void>(read_material(*material, {}, findings));
+    if (rules) static_cast<void>(read_rule_group(*rules, {}, RuleSubject::workshop, folder, findings));
+    return {};
+  }
+  switch (*kind) {
     case Process::plate:
       design.process = read_plate(map, findings);
       break;

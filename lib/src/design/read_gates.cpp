@@ -4,6 +4,8 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 
+#include "design/read_body.hpp"
+
 #include <cmath>
 #include <initializer_list>
 #include <string>
@@ -18,8 +20,12 @@ void add_out_of_range(MapReader& map, std::string_view key, double value, Dimens
 }
 
 std::optional<Friction> read_friction(MapReader& map, Findings& findings) {
-  const auto angle = map.quantity("friction_angle", Dimension::angle);
-  const auto coefficient = map.quantity("friction_coefficient", Dimension::number);
+  const auto read = [&](std::string_view key, Dimension dimension) {
+    const auto value = map.find(key);
+    return value ? as_friction(*value, dimension, findings) : std::nullopt;
+  };
+  const auto angle = read("friction_angle", Dimension::angle);
+  const auto coefficient = read("friction_coefficient", Dimension::number);
   if (angle && coefficient) {
     findings.add(findings.position(map.path_of("friction_angle")), map.path_of("friction_angle"),
                  {"", "both friction_angle and friction_coefficient are given",

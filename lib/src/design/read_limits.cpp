@@ -115,7 +115,8 @@ std::optional<HalfPlane> read_half_plane(const Value& value, Findings& findings)
   plane.clearance = read_clearance(map);
   map.refuse_unknown_keys();
   const std::vector<Vec2> line =
-      line_value ? as_points(*line_value, "[[0 m, 2 m], [5 m, 2 m]]", findings) : std::vector<Vec2>{};
+      line_value ? as_points(*line_value, "[[0 m, 2 m], [5 m, 2 m]]", findings, {.exactly = {2}})
+                 : std::vector<Vec2>{};
   const auto stay = stay_value ? map.choice(*stay_value, sides) : std::nullopt;
   if (!stay || !line_value || line_value->node->items.size() != line.size()) return {};
   if (line.size() != 2) {
@@ -152,7 +153,7 @@ std::optional<KeepOut> read_keep_out(const Value& value, Findings& findings) {
                 findings);
   KeepOut keep_out;
   if (const auto outline = map.need("outline", kOutline)) {
-    keep_out.outline = as_points(*outline, kOutline, findings);
+    keep_out.outline = as_points(*outline, kOutline, findings, {.least = 3});
   }
   keep_out.clearance = read_clearance(map);
   if (const auto pass = map.find("pass")) {

@@ -24,7 +24,7 @@ ProfileCsvOptions read_columns(MapReader& map, Findings& findings) {
   }
   const auto value = map.find("columns");
   if (!value) return options;
-  const std::vector<Value> columns = as_list(*value, "[x, z]", findings);
+  const std::vector<Value> columns = as_list(*value, "[x, z]", findings, {.exactly = {2}});
   if (columns.size() == 2) {
     options.distance_column = as_text(columns[0], findings).value_or("");
     options.height_column = as_text(columns[1], findings).value_or("");
@@ -115,7 +115,7 @@ std::optional<Profile> read_line(const Value& value, const std::filesystem::path
   if (file) {
     profile.line = read_file(map, *file, directory, findings);
   } else if (const auto line = map.find("line")) {  // asked for first: a file stands in for it
-    profile.line = as_points(*line, kLineExample, findings);
+    profile.line = as_points(*line, kLineExample, findings, {.least = 2});
   } else {
     static_cast<void>(map.need("line", kLineExample));
   }

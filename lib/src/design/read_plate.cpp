@@ -1,9 +1,8 @@
-#include "glissade/core/words.hpp"
+#include "glissade/parts/plate_options.hpp"
 
 #include "design/read_process.hpp"
 
-#include <charconv>
-#include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,18 +61,16 @@ SplitOptions read_plate_split(const Value& value, Findings& findings) {
   return split;
 }
 
-/// "M10" as 10.
-std::optional<int> read_bolt(const Value& value, Findings& findings) {
-  const std::optional<std::string> text = as_text(value, findings);
-  if (!text) return {};
-  int size = 0;
-  const char* const end = text->data() + text->size();
-  const bool metric = text->size() > 1 && (text->front() == 'M' || text->front() == 'm');
-  const auto [rest, error] = std::from_chars(text->data() + (metric ? 1 : 0), end, size);
-  if (metric && error == std::errc{} && rest == end) return size;
-  findings.add(value.node->at, value.key_path,
-               {"", "bolt: " + shown(*text) + " is no metric bolt", "", "bolt: M10"});
-  return {};
+/// "M10" as 10, of the sizes whose holes are known.
+void set_bolt(MapReader& map, std::string_view key, int& bolt) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const int size : bolt_sizes()) all.push_back("M" + std::to_string(size));
+    return all;
+  }();
+  std::vector<std::pair<std::string_view, int>> words;
+  for (std::size_t i = 0; i < names.size(); ++i) words.emplace_back(names[i], bolt_sizes()[i]);
+  bolt = chosen(map, key, bolt, words);
 }
 
 FlangeOptions read_flanges(const Value& value, Findings& findings) {
@@ -87,7 +84,7 @@ FlangeOptions read_flanges(const Value& value, Findings& findings) {
                 findings);
   flanges.width = map.quantity("width", Dimension::length).value_or(flanges.width);
   flanges.thickness = map.quantity("thickness", Dimension::length).value_or(flanges.thickness);
-  if (const auto bolt = map.find("bolt")) flanges.bolt = read_bolt(*bolt, findings).value_or(flanges.bolt);
+  set_bolt(map, "bolt", flanges.bolt);
   flanges.pitch = map.quantity("pitch", Dimension::length).value_or(flanges.pitch);
   flanges.gap = map.quantity("gap", Dimension::length).value_or(flanges.gap);
   flanges.slotted = chosen<std::optional<FlangeSide>>(
@@ -118,10 +115,6 @@ CornerOptions read_corners(MapReader& whole, const Value& value, Findings& findi
   corners.clearance = map.quantity("clearance", Dimension::length).value_or(corners.clearance);
   map.refuse_unknown_keys();
   return corners;
-}
-
-void set_bolt(MapReader& map, std::string_view key, int& bolt, Findings& findings) {
-  if (const auto value = map.find(key)) bolt = read_bolt(*value, findings).value_or(bolt);
 }
 
 RimOptions read_rim(const Value& value, Findings& findings) {
@@ -163,7 +156,7 @@ LinerOptions read_liner(const Value& value, Findings& findings) {
   set_length(map, "tile_width", liner.tile_width);
   set_length(map, "gap", liner.gap);
   liner.heaviest = map.quantity("heaviest", Dimension::mass).value_or(liner.heaviest);
-  set_bolt(map, "bolt", liner.bolt, findings);
+  set_bolt(map, "bolt", liner.bolt);
   read_places(map, liner);
   map.refuse_unknown_keys();
   return liner;
@@ -173,7 +166,7 @@ CoverOptions read_cover(const Value& value, Findings& findings) {
   MapReader map(value, "A cover", "{thickness: 2 mm, bolt: M8, pitch: 300 mm}", findings);
   CoverOptions cover;
   set_length(map, "thickness", cover.thickness);
-  set_bolt(map, "bolt", cover.bolt, findings);
+  set_bolt(map, "bolt", cover.bolt);
   set_length(map, "pitch", cover.pitch);
   map.refuse_unknown_keys();
   return cover;
@@ -185,7 +178,7 @@ InspectionOptions read_opening(const Value& value, Findings& findings) {
   opening.at = map.needed_quantity("at", Dimension::length, "at: 2 m").value_or(opening.at);
   set_length(map, "length", opening.length);
   set_length(map, "height", opening.height);
-  set_bolt(map, "bolt", opening.bolt, findings);
+  set_bolt(map, "bolt", opening.bolt);
   map.refuse_unknown_keys();
   return opening;
 }
@@ -212,7 +205,7 @@ SupportOptions read_supports(const Value& value, Findings& findings) {
     supports.steepest = Angle::from_radians(*steepest);
   set_length(map, "braced_from", supports.braced_from);
   set_length(map, "grout", supports.grout);
-  set_bolt(map, "anchor", supports.anchor, findings);
+  set_bolt(map, "anchor", supports.anchor);
   map.refuse_unknown_keys();
   return supports;
 }

@@ -13,7 +13,7 @@ namespace {
 /// [220 mm, 220 mm, 250 mm]: width, depth and height.
 PrintBed read_bed(const Value& value, PrintBed bed, Findings& findings) {
   constexpr std::string_view kExample = "[220 mm, 220 mm, 250 mm]";
-  const std::vector<Value> sides = as_list(value, kExample, findings);
+  const std::vector<Value> sides = as_list(value, kExample, findings, {.exactly = {3}});
   if (sides.empty()) return bed;
   const std::array<double*, 3> lengths = {&bed.x, &bed.y, &bed.z};
   for (std::size_t i = 0; i < std::min(sides.size(), lengths.size()); ++i) {

@@ -20,8 +20,23 @@ namespace glissade {
 namespace design_file {
 namespace {
 
-constexpr std::string_view kExampleRule =
-    "{id: own.exit, sentence: ..., quantity: exit_speed, highest: 9 m/s, source: ...}";
+/// What rules of a group may speak of; none: of anything, as those of a file that may be used anywhere.
+using Subject = std::optional<RuleSubject>;
+
+std::string_view example_rule(const Subject& subject) {
+  if (subject == RuleSubject::workshop)
+    return "{id: own.mass, sentence: ..., quantity: part_mass, highest: 25 kg, source: ...}";
+  return "{id: own.exit, sentence: ..., quantity: exit_speed, highest: 9 m/s, source: ...}";
+}
+
+std::string_view example_condition(const Subject& subject) {
+  return subject == RuleSubject::workshop ? "{quantity: part_thickness, highest: 3 mm}"
+                                          : "{quantity: hill_size, lowest: 110 m}";
+}
+
+std::string_view example_quantity(const Subject& subject) {
+  return subject == RuleSubject::workshop ? "quantity: part_mass" : "quantity: steepest_slope_angle";
+}
 
 const std::vector<std::pair<std::string_view, Certainty>>& certainty_words() {
   static const std::vector<std::pair<std::string_view, Certainty>> words = [] {
@@ -37,9 +52,6 @@ std::string needed_text(MapReader& map, std::string_view key, std::string_view e
   return value ? as_text(*value, findings).value_or("") : std::string();
 }
 
-/// What rules of a group may speak of; none: of anything, as those of a file that may be used anywhere.
-using Subject = std::optional<RuleSubject>;
-
 /// Why a quantity is of no use where it stands; none where it is.
 std::optional<Issue> misplaced(const RuleQuantity& quantity, const Subject& subject) {
   if (!subject || *subject == quantity.subject) return {};
@@ -50,18 +62,29 @@ std::optional<Issue> misplaced(const RuleQuantity& quantity, const Subject& subj
                of_track ? "the rule below rules:" : "the rule below fabrication: {rules: {own: ...}}"};
 }
 
+/// The keys of the quantities that rules of a subject may speak of.
+std::vector<std::string_view> quantity_keys(const Subject& subject) {
+  std::vector<std::string_view> keys;
+  for (const RuleQuantity& quantity : rule_quantities()) {
+    if (!misplaced(quantity, subject)) keys.push_back(quantity.key);
+  }
+  return keys;
+}
+
 /// A quantity by its key, or a finding that names the nearest.
 const RuleQuantity* read_quantity_key(MapReader& map, const Subject& subject, Findings& findings) {
-  const auto value = map.need("quantity", "quantity: steepest_slope_angle");
+  const auto value = map.need("quantity", example_quantity(subject));
   const auto key = value ? as_text(*value, findings) : std::nullopt;
+  const std::vector<std::string_view> keys = quantity_keys(subject);
+  if (Notes* const notes = findings.notes(); notes != nullptr && value) {
+    for (const std::string_view one : keys) notes->word(value->key_path, one);
+  }
   if (!key) return nullptr;
   if (const RuleQuantity* const quantity = rule_quantity(*key)) {
     if (auto issue = misplaced(*quantity, subject))
       findings.add(value->node->at, value->key_path, *std::move(issue));
     return quantity;
   }
-  std::vector<std::string_view> keys;
-  for (const RuleQuantity& quantity : rule_quantities()) keys.push_back(quantity.key);
   const std::string_view near = nearest_word(*key, keys);
   findings.add(value->node->at, value->key_path,
                {"", "quantity: " + shown(*key) + " is not known",
@@ -98,7 +121,7 @@ Range read_bound(MapReader& map, const Value& value, const RuleQuantity* quantit
 }
 
 RuleCondition read_condition(const Value& value, const Subject& subject, Findings& findings) {
-  MapReader map(value, "A condition", "{quantity: hill_size, lowest: 110 m}", findings);
+  MapReader map(value, "A condition", example_condition(subject), findings);
   map.expect({"quantity", "lowest", "highest"});
   RuleCondition condition;
   const RuleQuantity* const quantity = read_quantity_key(map, subject, findings);
@@ -109,7 +132,7 @@ RuleCondition read_condition(const Value& value, const Subject& subject, Finding
 }
 
 Rule read_rule(const Value& value, const Subject& subject, Findings& findings) {
-  MapReader map(value, "A rule", kExampleRule, findings);
+  MapReader map(value, "A rule", example_rule(subject), findings);
   map.expect({"id", "sentence", "quantity", "lowest", "highest", "advice", "when", "source", "certainty"});
   Rule rule;
   rule.id = needed_text(map, "id", "id: own.exit-speed", findings);
@@ -119,7 +142,7 @@ Rule read_rule(const Value& value, const Subject& subject, Findings& findings) {
   rule.bound = read_bound(map, value, quantity, findings);
   if (const auto advice = map.find("advice")) rule.advice = as_flag(*advice, findings).value_or(false);
   if (const auto when = map.find("when")) {
-    for (const Value& item : as_list(*when, "[{quantity: hill_size, lowest: 110 m}]", findings)) {
+    for (const Value& item : as_list(*when, "[" + std::string(example_condition(subject)) + "]", findings)) {
       rule.when.push_back(read_condition(item, subject, findings));
     }
   }
@@ -134,7 +157,7 @@ Rule read_rule(const Value& value, const Subject& subject, Findings& findings) {
 std::vector<Rule> read_rule_list(const Value& list, const Subject& subject, Findings& findings) {
   std::vector<Rule> rules;
   std::set<std::string> ids;
-  for (const Value& item : as_list(list, kExampleRule, findings)) {
+  for (const Value& item : as_list(list, "[" + std::string(example_rule(subject)) + "]", findings)) {
     rules.push_back(read_rule(item, subject, findings));
     const std::string& id = rules.back().id;
     if (id.empty() || ids.insert(id).second) continue;
@@ -232,12 +255,15 @@ void replace_or_add(std::vector<Rule>& rules, const Rule& rule) {
   }
 }
 
-void leave_out(const Value& list, RulesDesign& rules, Findings& findings) {
-  for (const Value& item : as_list(list, "[fis.in-run.load]", findings)) {
+/// @param all_known  without, an id may be that of a rule that is not known here
+void leave_out(const Value& list, RulesDesign& rules, bool all_known, Findings& findings) {
+  const std::string example = rules.in_force.empty() ? "fis.in-run.load" : rules.in_force.front().id;
+  for (const Value& item : as_list(list, "[" + example + "]", findings)) {
     const std::string id = as_text(item, findings).value_or("");
     if (id.empty()) continue;
     rules.left_out.push_back(id);
-    if (std::erase_if(rules.in_force, [&](const Rule& rule) { return rule.id == id; }) != 0) continue;
+    const auto left = std::erase_if(rules.in_force, [&](const Rule& rule) { return rule.id == id; });
+    if (left != 0 || !all_known) continue;
     std::vector<std::string_view> ids;
     for (const Rule& rule : rules.in_force) ids.push_back(rule.id);
     findings.add(item.node->at, item.key_path,
@@ -260,9 +286,10 @@ RulesDesign suggested_rules(const std::vector<std::string>& suggested) {
   return rules;
 }
 
-RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& suggested,
+RulesDesign read_rule_group(const Value& value, const std::optional<std::vector<std::string>>& suggested,
                             RuleSubject subject, const std::filesystem::path& folder, Findings& findings) {
-  MapReader map(value, "A group of rules", "{sets: [fis-in-run]}", findings);
+  const std::string set = subject == RuleSubject::workshop ? "[shop-plate]" : "[fis-in-run]";
+  MapReader map(value, "A group of rules", "{sets: " + set + "}", findings);
   map.expect({"sets", "own", "leave_out"});
   RulesDesign rules;
   const auto add = [&](const std::vector<Rule>& more) {
@@ -270,20 +297,21 @@ RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& 
   };
   if (const auto sets = map.find("sets")) {
     rules.sets.emplace();
-    for (const Value& item : as_list(*sets, "[fis-in-run]", findings)) {
+    for (const Value& item : as_list(*sets, set, findings)) {
       const std::string name = as_text(item, findings).value_or("");
       if (name.empty()) continue;
       rules.sets->push_back(name);
       add(rules_of_set(item, name, subject, folder, findings));
     }
-  } else {
-    add(suggested_rules(suggested).in_force);
+  } else if (suggested) {
+    add(suggested_rules(*suggested).in_force);
   }
   if (const auto own = map.find("own")) {
     rules.own = read_rule_list(*own, subject, findings);
     add(rules.own);
   }
-  if (const auto list = map.find("leave_out")) leave_out(*list, rules, findings);
+  if (const auto list = map.find("leave_out"))
+    leave_out(*list, rules, suggested.has_value() || rules.sets.has_value(), findings);
   map.refuse_unknown_keys();
   return rules;
 }
@@ -291,9 +319,13 @@ RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& 
 void read_rules(MapReader& top, Design& design, Findings& findings) {
   const std::vector<std::string> suggested = suggested_rule_sets(design);
   const auto value = top.find("rules");
-  design.rules =
-      value ? read_rule_group(*value, suggested, RuleSubject::track, design.file.parent_path(), findings)
-            : suggested_rules(suggested);
+  if (!value) {
+    design.rules = suggested_rules(suggested);
+    return;
+  }
+  const bool known = !findings.spoiled("centerline.kind") && (design.stream || !findings.spoiled("stream"));
+  design.rules = read_rule_group(*value, known ? std::optional(suggested) : std::nullopt, RuleSubject::track,
+                                 design.file.parent_path(), findings);
 }
 
 }  // namespace design_file

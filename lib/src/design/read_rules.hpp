@@ -5,6 +5,7 @@
 #include "design/map_reader.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ namespace glissade::design_file {
 /// @param suggested  the sets that hold where none are named
 /// @param subject    what its rules may speak of
 /// @param folder     that relative paths of files are taken from
-[[nodiscard]] RulesDesign read_rule_group(const Value& value, const std::vector<std::string>& suggested,
+[[nodiscard]] RulesDesign read_rule_group(const Value& value,
+                                          const std::optional<std::vector<std::string>>& suggested,
                                           RuleSubject subject, const std::filesystem::path& folder,
                                           Findings& findings);
 

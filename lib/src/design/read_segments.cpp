@@ -93,7 +93,7 @@ void read_segments(MapReader& map, CenterlineDesign& centerline, Findings& findi
   constexpr std::string_view kExample = "[{length: 2 m}, {length: 1.5 m, radius: 3 m}]";
   const auto list = map.need("segments", kExample);
   if (!list) return;
-  for (const Value& item : as_list(*list, kExample, findings)) {
+  for (const Value& item : as_list(*list, kExample, findings, {.least = 1})) {
     centerline.segments.push_back(read_segment(item, findings));
   }
 }

@@ -164,6 +164,7 @@ std::optional<StreamDesign> read_stream(MapReader& top, Findings& findings) {
   const std::optional<Value> value = top.find("stream");
   if (!value) return {};
   MapReader map(*value, "A stream", kExample, findings);
+  if (!map.readable()) return {};
   map.expect({"mass_flow", "bulk_density", "material", "liner", "moisture", "lump_size",
               "lateral_pressure_ratio", "slip_ratio", "liner_plate", "surge", "trickle"});
   for (const std::string_view key : {"friction_angle", "friction_coefficient", "entry_speed"})

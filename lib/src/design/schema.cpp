@@ -95,6 +95,23 @@ Json word_schema(const std::vector<std::string>& words) {
   return values.size() == 1 ? Json{{"const", values[0]}} : Json{{"enum", values}};
 }
 
+/// @return one schema for each length that is asked for
+std::vector<Json> list_schemas(const Json& items, const ItemCounts& counts) {
+  const Json any = {{"type", "array"}, {"items", items}};
+  if (counts.exactly.empty()) {
+    Json schema = any;
+    if (counts.least > 0) schema["minItems"] = counts.least;
+    return {schema};
+  }
+  std::vector<Json> schemas;
+  for (const std::size_t count : counts.exactly) {
+    schemas.push_back(any);
+    schemas.back()["minItems"] = count;
+    schemas.back()["maxItems"] = count;
+  }
+  return schemas;
+}
+
 Json one_of(std::vector<Json> alternatives) {
   if (alternatives.empty()) return Json::object();
   if (alternatives.size() == 1) return std::move(alternatives.front());
@@ -142,12 +159,9 @@ class Describer {
     }
     if (value.flag) alternatives.push_back({{"type", "boolean"}});
     put(path, pair());
-    if (read().at(joined(path)).list) {
-      Json items = describe(child(path, "0"));
-      Json schema;
-      schema["type"] = "array";
-      schema["items"] = std::move(items);
-      alternatives.push_back(std::move(schema));
+    if (const Noted list = read().at(joined(path)); list.list) {
+      for (Json& schema : list_schemas(describe(child(path, "0")), list.items))
+        alternatives.push_back(std::move(schema));
     }
     put(path, group());
     if (read().at(joined(path)).map) {

@@ -3,6 +3,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 
+#include "design/read_body.hpp"
 #include "design/written_text.hpp"
 
 #include <optional>
@@ -25,7 +26,8 @@ std::optional<std::string> angle_of(Friction friction) {
     std::string text = angle_text(Angle::from_radians(angle), digits);
     const auto read = read_quantity(text, Dimension::angle, "friction_angle");
     const double* const value = std::get_if<double>(&read);
-    if (value != nullptr && Friction::from_angle(Angle::from_radians(*value)) == friction) return text;
+    // Of few digits, a steep one may read as 90 deg, which no friction has.
+    if (value != nullptr && friction_of_angle(*value) == friction) return text;
   }
   return {};
 }

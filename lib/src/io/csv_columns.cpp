@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 namespace glissade {
 
@@ -49,11 +50,15 @@ std::string CsvColumns::place(std::size_t row) const {
   return file_.string() + ":" + std::to_string(lines_[row]);
 }
 
-void CsvColumns::require(std::string_view column, std::string_view hint) const {
-  if (has(column)) return;
-  throw FileError(
-      {file_.string() + ":" + std::to_string(header_line_), "there is no column " + in_quotes(column),
-       "The first line names the columns; here they are " + listed(names_) + ".", std::string(hint)});
+void CsvColumns::require(const std::vector<Required>& columns) const {
+  std::vector<Issue> missing;
+  for (const Required& one : columns) {
+    if (has(one.column)) continue;
+    missing.push_back(
+        {file_.string() + ":" + std::to_string(header_line_), "there is no column " + in_quotes(one.column),
+         "The first line names the columns; here they are " + listed(names_) + ".", std::string(one.hint)});
+  }
+  if (!missing.empty()) throw FileError(std::move(missing));
 }
 
 std::string CsvColumns::text(std::size_t row, std::string_view column) const {

@@ -400,6 +400,9 @@ std::vector<Issue> plate_problems(const section::Measures& measures, const Plate
 std::vector<Issue> plate_problems(const ChannelMeasures& channel, const PlateOptions& options) {
   if (!follows_flats(channel, options)) return channel_problems(channel, options);
   std::vector<Issue> issues = channel_problems(channel, of_smooth_walls(options));
+  for (Issue& issue : issues) {
+    if (issue.where == "bend.inner_radius") issue = *too_tight_a_bend_of_any(channel.thickness, options);
+  }
   if (!issues.empty()) return issues;
   return section_problems(*plate_section(section_of(channel), options), options);
 }

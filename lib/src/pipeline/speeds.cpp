@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade {
 namespace {
@@ -28,11 +29,13 @@ class Reader {
  public:
   Reader(const std::filesystem::path& file, const std::optional<std::filesystem::path>& design)
       : columns_(CsvColumns::read(file, "the speeds")), folder_(file.parent_path()), design_(design) {
-    if (!design) columns_.require("design", "design, or the option that names one for all rows");
     by_gate_ = columns_.has("gate");
-    if (!by_gate_) columns_.require("length_m", kExample);
     in_kilometres_ = columns_.has("speed_km_h");
-    if (!in_kilometres_) columns_.require("speed_m_per_s", kExample);
+    std::vector<CsvColumns::Required> required;
+    if (!design) required.push_back({"design", "design, or the option that names one for all rows"});
+    if (!by_gate_) required.push_back({"length_m", kExample});
+    if (!in_kilometres_) required.push_back({"speed_m_per_s", kExample});
+    columns_.require(required);
     require_either("gate", "length_m");
     require_either("speed_km_h", "speed_m_per_s");
   }

@@ -20,7 +20,8 @@ using namespace report;
 
 std::vector<SurveyPoint> read_survey(const std::filesystem::path& file, const Placement& placement) {
   const CsvColumns columns = CsvColumns::read(file, "the survey");
-  for (const char* const axis : {"x", "z"}) columns.require(axis, "x,z or name,x,y,z, in metres");
+  constexpr std::string_view kAxes = "x,z or name,x,y,z, in metres";
+  columns.require({{"x", kAxes}, {"z", kAxes}});
   const double azimuth = placement.azimuth().radians();
   const Vec3 start = placement.start();
   std::vector<SurveyPoint> points;

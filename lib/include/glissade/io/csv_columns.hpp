@@ -25,8 +25,13 @@ class CsvColumns {
   [[nodiscard]] bool has(std::string_view column) const;
   /// @return "survey.csv:14": where a row stands
   [[nodiscard]] std::string place(std::size_t row) const;
-  /// @throws FileError if there is no such column (names those that there are)
-  void require(std::string_view column, std::string_view hint) const;
+  /// A column that there must be.
+  struct Required {
+    std::string_view column;
+    std::string_view hint;
+  };
+  /// @throws FileError if any of them is not there (names all of these, and those that there are)
+  void require(const std::vector<Required>& columns) const;
   /// @return the text of a cell; empty where the row is too short or there is no such column
   [[nodiscard]] std::string text(std::size_t row, std::string_view column) const;
   /// @return the finite number in a cell

@@ -184,18 +184,19 @@ void object_to_step(double step, Objections& objections) {
 
 }  // namespace
 
-std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options) {
+std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options,
+                                      const std::string& part) {
   const double radius = options.bend.inner_radius.value_or(thickness);
   const double asked = options.shop.bend_radius_thicknesses;
   const double least = asked * thickness;
   if (!(radius < (1.0 - 1e-9) * least)) return std::nullopt;
   const bool usual = asked == ShopLeast{}.bend_radius_thicknesses;
   return Issue{"bend.inner_radius",
-               usual ? "inner_radius: " + length_text(radius) + " is less than the plate's thickness"
+               usual ? "inner_radius: " + length_text(radius) + " is less than the " + part + "'s thickness"
                      : "inner_radius: " + length_text(radius) + " is less than the shop bends",
                usual ? "Mild steel cracks below " + length_text(thickness) + " (1 thickness)."
                      : "Its rules ask for " + length_text(least) + " (" + rounded_text(asked, 4) +
-                           " thicknesses) or more.",
+                           " thicknesses of the " + part + ") or more.",
                "inner_radius: " + length_text(least)};
 }
 

@@ -4,6 +4,7 @@
 #include "glissade/parts/plate_options.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace glissade::parts {
@@ -16,7 +17,9 @@ namespace glissade::parts {
                                                   const PlateOptions& options);
 
 /// Of a punch that is sharper than the material stands.
+/// @param part  whose thickness it is
 /// @return none of one that is not
-[[nodiscard]] std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options);
+[[nodiscard]] std::optional<Issue> too_tight_a_bend(double thickness, const PlateOptions& options,
+                                                    const std::string& part = "plate");
 
 }  // namespace glissade::parts

@@ -503,17 +503,26 @@ void object_to_tiles(const PlateSection& section, const PlateOptions& options, I
 
 }  // namespace
 
+std::optional<Issue> too_tight_a_bend_of_any(double plate, const PlateOptions& options) {
+  std::pair<double, std::string> thickest{plate, "plate"};
+  const auto beside = [&](double thickness, const char* part) {
+    if (thickness > thickest.first) thickest = {thickness, part};
+  };
+  if (options.rim) beside(options.rim->thickness, "rim");
+  if (options.cover) beside(options.cover->thickness, "cover");
+  if (options.liner) beside(options.liner->thickness, "liner");
+  return too_tight_a_bend(thickest.first, options, thickest.second);
+}
+
 std::vector<Issue> section_fitting_problems(const PlateSection& section, const PlateOptions& options) {
   Issues issues;
   const bool bent = options.floor == FloorMake::bent;
-  const auto on_bends = [&](double thickness) {
-    if (!bent) return;
-    if (auto tight = too_tight_a_bend(thickness, options)) issues.add({std::move(*tight)});
-  };
+  // Where the plates are too thick themselves, that is told of them, with what is thickest.
+  if (bent && !too_tight_a_bend(section.thickness, options)) {
+    if (auto tight = too_tight_a_bend_of_any(section.thickness, options)) issues.add({std::move(*tight)});
+  }
   if (options.rim) object_to_rims(section, *options.rim, issues);
-  if (options.rim) on_bends(options.rim->thickness);
   if (options.cover) {
-    on_bends(options.cover->thickness);
     issues.add(cover_problems(options));
     const auto side = outer_side(section, 1.0);
     if (side && !(side->top.y > 0.0))
@@ -525,10 +534,7 @@ std::vector<Issue> section_fitting_problems(const PlateSection& section, const P
                  "cover: sides of bent plates lean otherwise from flat to flat where the width changes", "",
                  "no cover, floor: rolled, or one width");
   }
-  if (options.liner) {
-    on_bends(options.liner->thickness);
-    object_to_tiles(section, options, issues);
-  }
+  if (options.liner) object_to_tiles(section, options, issues);
   return std::move(issues.all);
 }
 

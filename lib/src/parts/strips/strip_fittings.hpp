@@ -8,6 +8,7 @@
 #include "parts/strips/strip_sheet.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace glissade::parts {
@@ -49,6 +50,10 @@ struct Lane {
 };
 /// Between the corners of the section and of the plate below, whichever are nearer to the middle: tiles are cut square.
 [[nodiscard]] Lane lane_of(const PlateSection& section, const LinedFace& face);
+
+/// What is bent along the track beside the plates themselves, or these, whichever is thickest.
+/// @return of a punch too sharp for it; none of one that is not
+[[nodiscard]] std::optional<Issue> too_tight_a_bend_of_any(double plate, const PlateOptions& options);
 
 /// What no shop can set on a section, whatever the track is.
 [[nodiscard]] std::vector<Issue> section_fitting_problems(const PlateSection& section,

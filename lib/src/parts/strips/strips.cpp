@@ -178,7 +178,8 @@ std::vector<Issue> strip_problems(const PlateSection& section, const PlateOption
                             options, issues);
   }
   if (options.floor == FloorMake::bent) {
-    if (auto issue = too_tight_a_bend(section.thickness, options)) issues.push_back(std::move(*issue));
+    if (too_tight_a_bend(section.thickness, options))
+      issues.push_back(*too_tight_a_bend_of_any(section.thickness, options));
   }
   for (const SectionPlate& plate : section.plates) {
     if (dot(plate.back_to - plate.back_from, plate.face_to - plate.face_from) > 0.0) continue;
