@@ -195,7 +195,8 @@ TEST_CASE("elementary functions keep their last digit, and their sign, at the en
     }
   }
   CHECK_THAT(math::log1p(1.1e307), Catch::Matchers::WithinRel(706.9889337289763, 2.3e-16));
-  CHECK_THAT(math::log1p(std::numeric_limits<double>::max()), Catch::Matchers::WithinRel(709.782712893384, 2.3e-16));
+  CHECK_THAT(math::log1p(std::numeric_limits<double>::max()),
+             Catch::Matchers::WithinRel(709.782712893384, 2.3e-16));
 }
 
 TEST_CASE("a hypotenuse neither overflows nor vanishes before its sides do") {

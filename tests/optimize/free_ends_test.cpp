@@ -343,6 +343,14 @@ TEST_CASE("no track carries less than what every track is said to carry") {
     if (i % 7 == 0) problem.limits.lead_out = lead_out;
     if (i % 4 == 0) problem.finish.kind = FinishKind::level;
     if (i % 4 == 0) problem.limits.slope_angle.highest = std::max(entry, exit);
+    const Endpoints ends = problem.endpoints;
+    if (i % 8 == 0)
+      problem.finish.free_range = {random.between(0.5, 1.0) * ends.run, random.between(1.0, 2.0) * ends.run};
+    if (i % 4 == 2) {
+      problem.finish = {FinishKind::vertical_line,
+                        {ends.drop - random.between(0.0, 3.0), ends.drop + random.between(0.0, 1.0)},
+                        {}};
+    }
     const Motion motion(track, problem.body, kGravity);
     if (!motion.arrived()) continue;
     const double least = least_load_anywhere(problem);

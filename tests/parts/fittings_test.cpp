@@ -267,10 +267,10 @@ TEST_CASE("fittings: what cannot be made is refused with place, value, bound and
   slips.lifting.emplace();
   slips.lifting->thickness = 2.0;
   slips.inspection = {{3.0, 0.2, 0.12, 8}};
-  const std::string told = refusal(slips);
-  CHECK(told.find("liner.thickness|thickness: 2 m is more than a tile is wide, 200 mm|") !=
+  const std::string bounds = refusal(slips);
+  CHECK(bounds.find("liner.thickness|thickness: 2 m is more than a tile is wide, 200 mm|") !=
         std::string::npos);
-  CHECK(told.find("lifting.thickness|thickness: 2 m is more than a lug is wide, 80 mm|") !=
+  CHECK(bounds.find("lifting.thickness|thickness: 2 m is more than a lug is wide, 80 mm|") !=
         std::string::npos);
   // Those of bent floors are bounded as the sections of strips.
   slips.floor = FloorMake::bent;

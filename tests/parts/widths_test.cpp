@@ -342,7 +342,8 @@ TEST_CASE("widths: a wall that leans along the track weighs as much as the sheet
     CHECK_THAT(wall->mass, Catch::Matchers::WithinRel(length * 0.254 * 4e-3 * 7850.0, 1e-9));
     CHECK_THAT(wall->volume, Catch::Matchers::WithinRel(5.0 * 0.254 * 4e-3, 1e-9));
   }
-  CHECK_THAT(part_of(build, "floor").mass, Catch::Matchers::WithinRel(0.5 * (1.4 + 0.4) * 5.0 * 4e-3 * 7850.0, 1e-9));
+  CHECK_THAT(part_of(build, "floor").mass,
+             Catch::Matchers::WithinRel(0.5 * (1.4 + 0.4) * 5.0 * 4e-3 * 7850.0, 1e-9));
 }
 
 TEST_CASE("widths: units get as short as the heaviest part asks, whatever the sheet asked for before") {

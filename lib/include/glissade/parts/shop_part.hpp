@@ -198,9 +198,9 @@ struct ShopPart {
   int number = 0;    ///< from 1, in the order of the list
   std::string name;  ///< lower case, words joined by "_": "floor", "left_wall_2"
   std::string material;
-  double thickness = 0.0;                       ///< of the stock [m]; > 0
-  double density = 0.0;                         ///< [kg/m^3]; > 0
-  double volume = 0.0;                          ///< of one piece's body, exactly [m^3]
+  double thickness = 0.0;  ///< of the stock [m]; > 0
+  double density = 0.0;    ///< [kg/m^3]; > 0
+  double volume = 0.0;     ///< of one piece's body, exactly [m^3]
   /// Of one piece [kg]. Of a wall beside a width that changes that of its sheet: `body`, as thick across the track as the
   /// sheet is, is thinner by the cosine of what the wall leans along the track (1 to 4 %).
   double mass = 0.0;

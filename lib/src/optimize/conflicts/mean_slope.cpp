@@ -26,6 +26,34 @@ Angle mean_slope(const Problem& problem) {
   return Angle::from_radians(math::atan2(problem.endpoints.drop, std::fabs(problem.endpoints.run)));
 }
 
+/// The mean slopes that free ends leave, and the limits on slopes of which every track has its mean one somewhere [rad].
+Range mean_slopes(const Problem& problem) {
+  const Endpoints& ends = problem.endpoints;
+  const double run = std::fabs(ends.run);
+  const Range& free = problem.finish.free_range;
+  Range means{-kRightAngle, kRightAngle};
+  switch (problem.finish.kind) {
+    case FinishKind::point:
+      means = Range::fixed(mean_slope(problem).radians());
+      return means;
+    case FinishKind::vertical_line:
+      if (free.lowest) means.lowest = math::atan2(*free.lowest, run);
+      if (free.highest) means.highest = math::atan2(*free.highest, run);
+      break;
+    case FinishKind::level:
+      if (free.highest && ends.drop >= 0.0) means.lowest = math::atan2(ends.drop, *free.highest);
+      if (free.lowest && *free.lowest > 0.0 && ends.drop >= 0.0)
+        means.highest = math::atan2(ends.drop, *free.lowest);
+      break;
+    case FinishKind::anywhere:
+      break;
+  }
+  const Range& allowed = problem.limits.slope_angle;
+  if (allowed.lowest) means.lowest = std::max(*means.lowest, *allowed.lowest);
+  if (allowed.highest) means.highest = std::min(*means.highest, *allowed.highest);
+  return means;
+}
+
 }  // namespace
 
 std::optional<Conflict> beside_mean_slope(const Problem& problem, double tolerance,
@@ -87,10 +115,11 @@ double least_load_anywhere(const Problem& problem) {
     if (*entry.lowest >= 0.0) exit.lowest = std::max(*exit.lowest, 0.0);
     least = std::max(least, least_across(exit));
   }
-  if (problem.finish.kind != FinishKind::point) return least;
-  const double mean = mean_slope(problem).radians();
-  if (limits.concave || (lies_at_start && *entry.lowest >= -mean))
-    least = std::max(least, problem.gravity * math::cos(mean));
+  Range means = mean_slopes(problem);
+  // From rest nothing arrives where there is no drop.
+  if (rests) means.lowest = std::max(*means.lowest, 0.0);
+  if (limits.concave || (lies_at_start && *entry.lowest >= -*means.lowest))
+    least = std::max(least, least_across(means));
   return least;
 }
 

@@ -74,7 +74,7 @@ class Demand {
   Demand(const Transcription& track, const Vector& z, const std::vector<Cut>& cuts)
       : knots_(track.mesh().knots), total_(knots_.size(), 0.0) {
     constexpr double kEvenShare = 0.3;  // taste
-    constexpr double kMost = 1e100;     // rounding: of a jump between knots that are one; its square is a number
+    constexpr double kMost = 1e100;  // rounding: of a jump between knots that are one; its square is a number
     const Mesh& mesh = track.mesh();
     const std::size_t n = knots_.size();
     const Vector third = third_differences(track, z, cuts);

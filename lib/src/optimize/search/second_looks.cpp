@@ -18,8 +18,8 @@ namespace {
 
 /// An optimum before what is none and hardly better, else the better one.
 bool is_ahead(const Candidate& a, const Candidate& b, double tolerance) {
-  constexpr double kHardly =
-      1e-4;  // taste: of the objective; as little is worth less than to know how good a track is
+  // As little of the objective is worth less than to know how good a track is.
+  constexpr double kHardly = 1e-4;  // taste
   const bool is_optimum = a.found->residual <= tolerance;
   const double better = b.found->objective - a.found->objective;
   const bool counts = std::fabs(better) <= kHardly * std::fabs(b.found->objective);
