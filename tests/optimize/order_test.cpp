@@ -162,6 +162,19 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a track that is to be long is found from starts of no kind where those that wind lead to none") {
+  const auto& [problem, optimum] = known(34, 24);
+  REQUIRE(optimum.report.status == OptimizeStatus::optimal);
+  for (const testing_problems::Variation& variation : testing_problems::relaxations_of(problem)) {
+    if (variation.name() != "wider stay_above[0]") continue;
+    const Optimum wider = optimize(variation.problem);
+    CAPTURE(wider.report.brief());
+    REQUIRE(wider.centerline);
+    // Either knows its time to as much: that is what a finer mesh would win.
+    CHECK(testing_problems::slower_by(variation, optimum.report, wider.report) <= 2e-5);
+  }
+}
+
 TEST_CASE(
     "what counts time and speed finds the crest that is flown over at the start at every lowest slope "
     "angle") {

@@ -751,12 +751,11 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   Footing footing(problem, passages, leads, control, true);
   if (footing.found() || control.stop()) return explanation;
   LeastViolation& search = footing.search();
-  // Before limits are said to contradict each other a search of another kind, from other starts, has to fail too.
-  // Where bends are asked for, the starts were many already, and nothing is said that is not proven.
+  // Before limits are said to contradict each other, or no track to be found, a search of another kind, from other starts, has
+  // to fail too.
   const std::optional<OutOfEnergy> beyond = out_of_energy(problem);
   const std::optional<std::string> proof = beyond ? beyond->why : too_fast(problem);
-  const bool attack = !proof && (!footing.asks_for_bends() || search.astray());
-  if (attack && search.from(&scattered_starts, StepModel::flat)) return explanation;
+  if (!proof && search.from(&scattered_starts, StepModel::flat)) return explanation;
   if (search.astray() && !beyond) return explanation;
   Opposition opposition = opposition_of(footing, control);
   if (search.found() || control.stop()) return explanation;
