@@ -765,9 +765,9 @@ void note_wide_spans(const Trestles& all, const Shell& shell) {
   const auto tell = [&](double out, double at, const char* way) {
     if (!(out > 0.5 * spacing + kTold)) return;
     shell.workshop.notes.push_back("The track sticks out by " + length_text(out, 3) + " along it " + way +
-                                   " trestle, at " + length_text(at, 4) +
-                                   ", for half of spacing: " + length_text(spacing) + why +
-                                   "nearer to its end, or it is steeper there than " +
+                                   " trestle, at " + length_text(at, 4) + ", for " +
+                                   length_text(0.5 * spacing) + ", half of spacing: " + length_text(spacing) +
+                                   why + "nearer to its end, or it is steeper there than " +
                                    angle_text(shell.options.supports->steepest, 3) + ".");
   };
   tell(all.front().place.at, all.front().place.at, "above the first");
