@@ -204,9 +204,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a track that is better by more than a ten-thousandth is the answer, although no optimum") {
+  if (!testing::thorough()) return;  // some seconds
+  // It winds at a cap on the speed; the optimum beside it takes 6.113 s.
+  const auto& [problem, none] = known(8, 101);
+  REQUIRE_FALSE(none.centerline);
+  const std::vector<testing_problems::Variation> advised = testing_problems::as_advised(problem, none.report);
+  REQUIRE(advised.size() == 1);
+  const Optimum changed = optimize(advised.front().problem);
+  CAPTURE(changed.report.brief());
+  REQUIRE(changed.centerline);
+  CHECK(changed.report.travel_time < 6.05);
+}
+
 TEST_CASE("a bound that is said to be enough leads to an optimum when it is put in") {
   std::vector<std::pair<int, int>> all{{2, 81}};
-  if (testing::thorough()) all.insert(all.end(), {{7, 207}, {8, 254}, {8, 101}});
+  if (testing::thorough()) all.insert(all.end(), {{7, 207}, {8, 254}});
   for (const auto& [seed, index] : all) {
     const auto& [problem, none] = known(seed, index);
     CAPTURE(seed, index, none.report.brief());

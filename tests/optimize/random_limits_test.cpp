@@ -202,14 +202,15 @@ namespace {
 /// @param searched  of so many the independent search looks for a track where none is told
 void hold_random_limited(testing::Random random, int problems, int searched) {
   INFO("GLISSADE_SEED=" << random.seed());
-  // Its own numbers: the problems are the same without that search.
+  // Numbers of their own: the problems are the same without that search, and whatever is found for those before.
   testing::Random steps(random.seed());
+  testing::Random bends(random.seed() + 1);
   constexpr int kNeighbours = 16;
   Tally tally;
   for (int i = 0; i < problems; ++i) {
     const Problem problem = random_limited(random);
     CAPTURE(i);
-    const OptimizeReport report = hold(problem, kNeighbours, random, tally);
+    const OptimizeReport report = hold(problem, kNeighbours, bends, tally);
     const bool none =
         report.status == OptimizeStatus::infeasible || report.status == OptimizeStatus::no_track_found;
     if (i < searched && none) tally.infeasible += testing_problems::hold_none(problem, report, steps) ? 1 : 0;
@@ -256,12 +257,13 @@ Problem with_changing_friction(Problem problem, testing::Random& random) {
 }
 
 TEST_CASE("random limited problems where friction changes: no admissible neighbour is faster") {
-  testing::Random random = testing::seeded_random();
+  // The first of those that continuous integration draws winds at a cap on the speed, for some twenty seconds.
+  testing::Random random = testing::thorough() ? testing::seeded_random() : testing::seeded_random(4);
   INFO("GLISSADE_SEED=" << random.seed());
   // Most of them lift off where the track found flies over rougher ground.
   constexpr int kNeighbours = 80;
   Tally tally;
-  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 7 : 10));
+  const int problems = std::max(1, testing_problems::problem_count() / (testing::thorough() ? 7 : 6));
   for (int i = 0; i < problems; ++i) {
     const Problem problem = with_changing_friction(random_limited(random), random);
     CAPTURE(i);

@@ -3,6 +3,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/motion/motion.hpp"
 #include "glissade/referee/referee.hpp"
@@ -251,7 +252,7 @@ class LeastBound {
     int untold = 0;
     while (searches_ < kMostSearches && untold < kMostUntold && !outlay_.ends()) {
       if (bracket_.is_closed()) {
-        settled_ = bracket_.untold.empty();
+        settled_ = bracket_.untold.empty() || is_too_tight_below();
         return;
       }
       const Verdict verdict = look(bound);
@@ -262,6 +263,25 @@ class LeastBound {
       if (settled_) return;
       bound = next_after(bound, verdict);
     }
+  }
+
+  /// Just below the least bound that does a search may come to no end. Whether one a little farther below tells that it is the
+  /// least, to five digits.
+  [[nodiscard]] bool is_too_tight_below() {
+    constexpr double kShares[] = {1e-5, 1e-4, 1e-3};  // taste
+    const double excess = excess_;
+    const double price = price_;
+    for (const double share : kShares) {
+      const double bound = bracket_.loose * (1.0 - share);
+      if (!(bound > bracket_.tight) || outlay_.ends()) return false;
+      const Verdict verdict = look(bound);
+      bracket_.learn(bound, verdict);
+      if (verdict == Verdict::does) return false;
+      excess_ = excess;
+      price_ = price;
+      if (verdict != Verdict::untold) return share == kShares[0];
+    }
+    return false;
   }
 
   [[nodiscard]] double next_after(double bound, Verdict verdict) {
@@ -418,12 +438,12 @@ class LeastBound {
 
   /// What is left open: "of bounds between 14.2 m/s^2, which is too tight, and 14.9 m/s^2 searches did not tell"
   [[nodiscard]] std::string open_text() const {
-    const Dimension dimension = name_.dimension();
-    const std::string tight = bracket_.tight > 0.0
-                                  ? quantity_text(bracket_.tight, dimension) + ", which is too tight,"
-                                  : std::string("none");
-    return "of those between " + tight + " and " + quantity_text(bracket_.loose, dimension) +
-           (bracket_.untold.empty() ? " not all were tried" : " the searches came to no end");
+    const auto text = [&](double value, int digits) {
+      return quantity_text(value, name_.dimension(), digits);
+    };
+    const auto [tight, loose] = texts_apart(bracket_.tight, bracket_.loose, text);
+    return "of those between " + (bracket_.tight > 0.0 ? tight + ", which is too tight," : "none") + " and " +
+           loose + (bracket_.untold.empty() ? " not all were tried" : " the searches came to no end");
   }
 
   const Problem& asked_;
