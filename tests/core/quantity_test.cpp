@@ -79,9 +79,29 @@ TEST_CASE("a value of another dimension is refused by its name") {
         "      Try: 17 deg");
   CHECK_THAT(refusal("30 %", Dimension::length), Catch::Matchers::Contains("30 % is a share, not a length"));
   CHECK_THAT(refusal("3 deg", Dimension::number), Catch::Matchers::Contains("an angle, not a plain number"));
-  CHECK_THAT(
-      refusal("4 furlong", Dimension::length),
-      Catch::Matchers::Contains("has the unknown unit furlong") && Catch::Matchers::Contains("Try: 4 m"));
+  CHECK_THAT(refusal("4 furlong", Dimension::length),
+             Catch::Matchers::Contains("has the unknown unit furlong") &&
+                 Catch::Matchers::Contains("Try: 804.672 m"));
+}
+
+TEST_CASE("a value in an unknown unit is tried in a known one only where it means the same") {
+  const auto tried = [](const std::string& text, Dimension dimension) {
+    const std::string message = refusal(text, dimension);
+    return message.substr(message.rfind("Try: ") + 5);
+  };
+  CHECK(tried("500 cm2", Dimension::area) == "500 cm^2");
+  CHECK(tried("5 sqft", Dimension::area) == "0.464515 m^2");
+  CHECK(tried("981 cm/s^2", Dimension::acceleration) == "9.81 m/s^2");
+  CHECK(tried("1.2 g/l", Dimension::density) == "1.2 kg/m^3");
+  CHECK(tried("0.284 lb/in^3", Dimension::density) == "7861.09 kg/m^3");
+  CHECK(tried("60 g/s", Dimension::mass_flow) == "0.216 t/h");
+  CHECK(tried("10 knots", Dimension::speed) == "5.14444 m/s");
+  CHECK(tried("12 Degrees", Dimension::angle) == "12 deg");
+  CHECK(tried("5 MM", Dimension::length) == "5 mm");
+  CHECK(tried("30 permille", Dimension::number) == "0.03");
+  // Of others the units alone are told: the digits would be another value.
+  CHECK(tried("10 cubits", Dimension::length) == "a value in m, mm, cm, km, um, in or ft");
+  CHECK(tried("400 HB", Dimension::pressure).find("400") == std::string::npos);
 }
 
 TEST_CASE("what to try for a value of a related quantity means what was written") {

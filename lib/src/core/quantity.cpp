@@ -248,23 +248,58 @@ constexpr std::array kForeignUnits = {
     ForeignUnit{"m/min", Dimension::speed, 1.0 / 60.0},
     ForeignUnit{"fpm", Dimension::speed, 0.3048 / 60.0},
     ForeignUnit{"ft/min", Dimension::speed, 0.3048 / 60.0},
+    ForeignUnit{"fps", Dimension::speed, 0.3048},
+    ForeignUnit{"in/s", Dimension::speed, 0.0254},
+    ForeignUnit{"mi/h", Dimension::speed, 0.44704},
+    ForeignUnit{"knot", Dimension::speed, 1852.0 / 3600.0},
+    ForeignUnit{"gal", Dimension::acceleration, 1e-2},
+    ForeignUnit{"cm/s^2", Dimension::acceleration, 1e-2},
+    ForeignUnit{"ft/s^2", Dimension::acceleration, 0.3048},
     ForeignUnit{"dm", Dimension::length, 0.1},
     ForeignUnit{"inch", Dimension::length, 0.0254},
     ForeignUnit{"\"", Dimension::length, 0.0254},
     ForeignUnit{"'", Dimension::length, 0.3048},
     ForeignUnit{"yd", Dimension::length, 0.9144},
+    ForeignUnit{"yard", Dimension::length, 0.9144},
+    ForeignUnit{"fathom", Dimension::length, 1.8288},
+    ForeignUnit{"furlong", Dimension::length, 201.168},
+    ForeignUnit{"foot", Dimension::length, 0.3048},
+    ForeignUnit{"feet", Dimension::length, 0.3048},
+    ForeignUnit{"metre", Dimension::length, 1.0},
+    ForeignUnit{"meter", Dimension::length, 1.0},
+    ForeignUnit{"millimetre", Dimension::length, 1e-3},
+    ForeignUnit{"millimeter", Dimension::length, 1e-3},
+    ForeignUnit{"degree", Dimension::angle, Angle::from_degrees(1.0).radians()},
+    ForeignUnit{"radian", Dimension::angle, 1.0},
     ForeignUnit{"mi", Dimension::length, 1609.344},
     ForeignUnit{"grad", Dimension::angle, Angle::from_degrees(0.9).radians()},
     ForeignUnit{"gon", Dimension::angle, Angle::from_degrees(0.9).radians()},
     ForeignUnit{"mrad", Dimension::angle, 1e-3},
     ForeignUnit{"mm^2", Dimension::area, 1e-6},
+    ForeignUnit{"in^2", Dimension::area, 0.0254 * 0.0254},
+    ForeignUnit{"ft^2", Dimension::area, 0.3048 * 0.3048},
+    ForeignUnit{"sqft", Dimension::area, 0.3048 * 0.3048},
+    ForeignUnit{"1/in", Dimension::per_length, 1.0 / 0.0254},
+    ForeignUnit{"1/ft", Dimension::per_length, 1.0 / 0.3048},
+    ForeignUnit{"1/ft^2", Dimension::per_area, 1.0 / (0.3048 * 0.3048)},
+    ForeignUnit{"permille", Dimension::number, 1e-3},
+    ForeignUnit{"percent", Dimension::number, 1e-2},
     ForeignUnit{"us", Dimension::time, 1e-6},
     ForeignUnit{"lbs", Dimension::mass, 0.45359237},
+    ForeignUnit{"oz", Dimension::mass, 0.45359237 / 16.0},
+    ForeignUnit{"st", Dimension::mass, 14.0 * 0.45359237},
+    ForeignUnit{"g/s", Dimension::mass_flow, 1e-3},
+    ForeignUnit{"lb/min", Dimension::mass_flow, 0.45359237 / 60.0},
     ForeignUnit{"tph", Dimension::mass_flow, 1.0 / 3.6},
     ForeignUnit{"g/cm^3", Dimension::density, 1e3},
     ForeignUnit{"kg/l", Dimension::density, 1e3},
     ForeignUnit{"kg/dm^3", Dimension::density, 1e3},
+    ForeignUnit{"g/ml", Dimension::density, 1e3},
+    ForeignUnit{"g/l", Dimension::density, 1.0},
     ForeignUnit{"lb/ft^3", Dimension::density, 16.018463},
+    ForeignUnit{"pcf", Dimension::density, 16.018463},
+    ForeignUnit{"lb/in^3", Dimension::density, 27679.905},
+    ForeignUnit{"R", Dimension::temperature, 1.0 / 1.8},
     ForeignUnit{"F", Dimension::temperature, 1.0 / 1.8, 459.67 / 1.8},
     ForeignUnit{"degF", Dimension::temperature, 1.0 / 1.8, 459.67 / 1.8},
     ForeignUnit{"C", Dimension::temperature, 1.0, 273.15},
@@ -276,14 +311,41 @@ constexpr std::array kForeignUnits = {
 };
 
 /// A value in the unit of another trade, in one that is known; empty for any other unit.
-std::string translated(std::string_view digits, std::string_view unit_text, Dimension dimension) {
+std::string translated(double number, std::string_view unit_text, Dimension dimension) {
   constexpr int kDigits = 6;  // taste
-  const double number = number_of(digits);
   for (const ForeignUnit& unit : kForeignUnits) {
     if (unit.text == unit_text && unit.dimension == dimension)
       return quantity_text(number * unit.scale + unit.zero, dimension, kDigits);
   }
   return {};
+}
+
+/// The unit as it may be meant: a power without its sign, capital letters, a plural.
+std::vector<std::string> spellings_of(std::string_view unit_text) {
+  std::vector<std::string> all{std::string(unit_text)};
+  std::string small = all.front();
+  for (char& letter : small) {
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  all.push_back(small);
+  const char last = small.back();
+  if ((last == '2' || last == '3') && small.size() > 1 && small[small.size() - 2] != '^')
+    all.push_back(small.substr(0, small.size() - 1) + '^' + last);
+  if (last == 's' && small.size() > 2) all.push_back(small.substr(0, small.size() - 1));
+  return all;
+}
+
+/// What to try for a value in an unknown unit: what it means in a known one; where that cannot be told no digits, which in
+/// another unit would be another value.
+std::string in_known_unit(std::string_view digits, std::string_view unit_text, Dimension dimension) {
+  for (const std::string& spelling : spellings_of(unit_text)) {
+    const Unit* const unit = find_unit(spelling);
+    if (unit != nullptr && unit->dimension == dimension) return std::string(digits).append(" ") + spelling;
+    std::string text = translated(number_of(digits), spelling, dimension);
+    if (!text.empty()) return text;
+  }
+  if (dimension == Dimension::number) return "a plain number";
+  return "a value in " + listed(listed_units_of(dimension), "or");
 }
 
 /// Two dimensions of which one is the other per something, or of something more.
@@ -367,8 +429,7 @@ Issue wrong_unit(std::string_view name, std::string_view text, std::string_view 
             units_that_fit(dimension), of_this_dimension(text, number, *unit, dimension)};
   }
   Issue issue{"", named(name, text) + " has the unknown unit " + shown(unit_text), units_that_fit(dimension),
-              translated(number, unit_text, dimension)};
-  if (issue.hint.empty()) issue.hint = example(number, dimension);
+              in_known_unit(number, unit_text, dimension)};
   if (unit_text.front() == ',') issue.hint = "a decimal point instead of the comma";
   if (unit_text.front() == '/') {
     issue.why = "A value is one decimal number, not a quotient. " + issue.why;
