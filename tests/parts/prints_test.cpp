@@ -556,8 +556,10 @@ TEST_CASE(
   PrintOptions options = on_stands(0.12);
   options.stands->ground = {{-0.1, -0.3}, {0.2, -0.4}};
   const std::string text = refusal_of([&] { return prints(run(), groove(), options); });
-  CHECK(text.find(
-            "stands.ground|ground: its line ends at x = 200 mm from the start, and a foot stands at ") == 0);
+  CHECK(
+      text.find(
+          "stands.ground|ground: its line ends 200 mm from the start along the run, and a foot stands at ") ==
+      0);
 }
 
 TEST_CASE("prints: feet of stands are level on the highest ground below them") {

@@ -133,14 +133,13 @@ TEST_CASE(
     return refusal_of([&] { return crowded(2.0, ground); });
   };
   const std::string ends = told({{-1.0, -6.0}, {2.0, -8.0}});
-  CHECK(ends.find(
-            "supports.ground|ground: its line ends at x = 2 m from the start, and a trestle stands at ") ==
-        0);
+  CHECK(ends.find("supports.ground|ground: its line ends 2 m from the start along the run, and a trestle "
+                  "stands at ") == 0);
   CHECK(ends.find("a line as far as ") != std::string::npos);
   // The line that is told does.
   const std::size_t hint = ends.find("a line as far as ") + 17;
   CHECK(told({{-1.0, -6.0}, {std::stod(ends.substr(hint)), -8.0}}).empty());
-  CHECK(told({{3.0, -8.0}, {9.0, -8.0}}).find("its line begins at x = 3 m from the start") !=
+  CHECK(told({{3.0, -8.0}, {9.0, -8.0}}).find("its line begins 3 m from the start along the run") !=
         std::string::npos);
   CHECK(told({{-1.0, -8.0}, {9.0, -8.0}}).empty());
 }

@@ -290,7 +290,8 @@ TEST_CASE(
   // A line as long as the track will do, where legs stand behind its start below a slope.
   options.legs->ground = {{0.0, -16.0}, {40.0, -16.0}};
   CHECK(refusal(options, track).empty());
-  CHECK(text.find("legs.ground|ground: its line ends at x = 3 m from the start, and a leg stands at ") == 0);
+  CHECK(text.find(
+            "legs.ground|ground: its line ends 3 m from the start along the run, and a leg stands at ") == 0);
   CHECK(text.find("a line as far as ") != std::string::npos);
 }
 

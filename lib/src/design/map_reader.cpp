@@ -148,13 +148,13 @@ std::string pair_like(const Node& node) {
 
 }  // namespace
 
-std::optional<Vec2> as_point(const Value& value, Findings& findings) {
+std::optional<Vec2> as_point(const Value& value, Findings& findings, std::string_view example) {
   const std::vector<Value> numbers = as_list(value, pair_like(*value.node), findings, {.exactly = {2}});
   if (value.node->kind != Node::Kind::sequence) return {};
   if (numbers.size() != 2) {
     findings.add(value.node->at, value.key_path,
                  {"", value.key + " has " + core::counted(numbers.size(), "value") + " instead of 2",
-                  "A point is a pair.", "[-200 mm, 250 mm]"});
+                  "It is a pair.", std::string(example)});
     return {};
   }
   const auto first = as_quantity(numbers[0], Dimension::length, findings);

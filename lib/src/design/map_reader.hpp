@@ -30,7 +30,9 @@ struct Value {
 [[nodiscard]] std::optional<std::string> as_text(const Value& value, Findings& findings);
 [[nodiscard]] std::optional<bool> as_flag(const Value& value, Findings& findings);
 /// A pair of lengths: [5.4 m, 1.1 m].
-[[nodiscard]] std::optional<Vec2> as_point(const Value& value, Findings& findings);
+/// @param example  one that would do in its place
+[[nodiscard]] std::optional<Vec2> as_point(const Value& value, Findings& findings,
+                                           std::string_view example = "[-200 mm, 250 mm]");
 /// A list of such pairs.
 [[nodiscard]] std::vector<Vec2> as_points(const Value& value, std::string_view example, Findings& findings,
                                           const ItemCounts& counts = {});

@@ -70,8 +70,17 @@ StockMaterial read_material(const Value& value, StockMaterial material, Findings
 }
 
 std::vector<Vec2> read_ground(const Value& value, Findings& findings) {
-  if (value.node->kind == Node::Kind::sequence) return as_points(value, "[[0 m, 9 m], [5 m, 6 m]]", findings);
-  return {{0.0, as_quantity(value, Dimension::length, findings).value_or(0.0)}};
+  constexpr std::string_view kExample = "[[0 m, 9 m], [5 m, 6 m]]";
+  if (value.node->kind != Node::Kind::sequence)
+    return {{0.0, as_quantity(value, Dimension::length, findings).value_or(0.0)}};
+  std::vector<Vec2> line = as_points(value, kExample, findings, {.least = 2});
+  const std::size_t points = value.node->items.size();
+  if (points >= 2) return line;
+  findings.add(value.node->at, value.key_path,
+               {"", "ground: a line of " + core::counted(points, "point"),
+                "A line has two points or more; a level is one height.",
+                "ground: 0 m, or ground: " + std::string(kExample)});
+  return {{0.0, 0.0}};
 }
 
 std::optional<FabricationDesign> read_fabrication(MapReader& top, const std::filesystem::path& folder,

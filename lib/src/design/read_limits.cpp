@@ -232,9 +232,9 @@ void read_objective(MapReader& limits_map, Objective& objective, Findings& findi
     return;
   }
   MapReader map(*value, "An objective", "travel_time", findings);
-  if (const auto kind = map.need("kind", "kind: travel_time")) {
-    objective.kind = map.choice(*kind, kinds).value_or(ObjectiveKind::travel_time);
-  }
+  const auto word = map.need("kind", "kind: travel_time");
+  const auto kind = word ? map.choice(*word, kinds) : std::nullopt;
+  objective.kind = kind.value_or(ObjectiveKind::travel_time);
   if (objective.kind == ObjectiveKind::blend) {
     objective.exit_speed_weight =
         map.needed_quantity("exit_speed_weight", Dimension::time_per_speed, "exit_speed_weight: 0.1 s/(m/s)")
@@ -243,7 +243,8 @@ void read_objective(MapReader& limits_map, Objective& objective, Findings& findi
   map.add_stranger("exit_speed_weight", "kind: blend, which has exit_speed_weight");
   if (const auto worst = map.find("worst_case"))
     objective.worst_case = as_flag(*worst, findings).value_or(false);
-  map.refuse_unknown_keys();
+  // Of which kind its keys are is not known where that cannot be read.
+  if (kind || !word) map.refuse_unknown_keys();
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ BendOptions read_bend(const Value& value, Findings& findings) {
 }
 
 Vec2 read_sheet(const Value& value, Findings& findings) {
-  return as_point(value, findings).value_or(SplitOptions{}.sheet);
+  return as_point(value, findings, "[3 m, 1.5 m]").value_or(SplitOptions{}.sheet);
 }
 
 SplitOptions read_plate_split(const Value& value, Findings& findings) {

@@ -14,7 +14,7 @@ namespace {
 PrintBed read_bed(const Value& value, PrintBed bed, Findings& findings) {
   constexpr std::string_view kExample = "[220 mm, 220 mm, 250 mm]";
   const std::vector<Value> sides = as_list(value, kExample, findings, {.exactly = {3}});
-  if (sides.empty()) return bed;
+  if (value.node->kind != Node::Kind::sequence) return bed;
   const std::array<double*, 3> lengths = {&bed.x, &bed.y, &bed.z};
   for (std::size_t i = 0; i < std::min(sides.size(), lengths.size()); ++i) {
     *lengths[i] = as_quantity(sides[i], Dimension::length, findings).value_or(*lengths[i]);

@@ -65,7 +65,8 @@ LegOptions read_legs(const Value& value, Findings& findings) {
 TimberSplit read_timber_split(const Value& value, Findings& findings) {
   MapReader map(value, "A split of timber", "{sheet: [2.5 m, 1.25 m], longest: 12 m}", findings);
   TimberSplit split;
-  if (const auto sheet = map.find("sheet")) split.sheet = as_point(*sheet, findings).value_or(split.sheet);
+  if (const auto sheet = map.find("sheet"))
+    split.sheet = as_point(*sheet, findings, "[2.5 m, 1.25 m]").value_or(split.sheet);
   split.longest = map.quantity("longest", Dimension::length).value_or(split.longest);
   split.heaviest = map.quantity("heaviest", Dimension::mass);
   set_length(map, "margin", split.margin);

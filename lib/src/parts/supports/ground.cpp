@@ -40,11 +40,12 @@ void require_on_ground(const std::vector<Vec2>& ground, const std::vector<Foot>&
     if (foot == end) return;
     constexpr double kWhole = 10e-3;  // rounding, outwards: of the x that would do [m]
     const double enough = kWhole * (foot < end ? std::floor(foot / kWhole) : std::ceil(foot / kWhole));
-    issues.push_back({where,
-                      "ground: its line " + std::string(verb) + " at x = " + length_text(end, 4) +
-                          " from the start, and " + what + " stands at " + length_text(foot, 4),
-                      "How high the ground is beyond the line's own x is not known.",
-                      "a line as far as " + length_text(enough, 6) + " from the start, or farther"});
+    issues.push_back(
+        {where,
+         "ground: its line " + std::string(verb) + " " + length_text(end + 0.0, 4) +
+             " from the start along the run, and " + what + " stands at " + length_text(foot, 4),
+         "How high the ground is beyond the line's own x is not known.",
+         "a line as far as " + length_text(enough, 6) + " from the start along the run, or farther"});
   };
   refuse(ground.front().x, "begins", first);
   refuse(ground.back().x, "ends", last);
