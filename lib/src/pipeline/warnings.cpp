@@ -75,8 +75,9 @@ void add_lines_beside(const Design& design, const Track& track, std::vector<Issu
       const bool is_survey = lines[i].line.size() >= kSurvey;
       if (covered > (is_survey ? kMost * whole : 0.0)) continue;
       found.push_back({design.where("limits." + key + "." + std::to_string(i)),
-                       key + "[" + std::to_string(i) + "] covers " + length_text(covered > 0.0 ? covered : 0.0, 3) +
-                           " of the " + length_text(whole, 4) + " that the track runs",
+                       key + "[" + std::to_string(i) + "] covers " +
+                           length_text(covered > 0.0 ? covered : 0.0, 3) + " of the " +
+                           length_text(whole, 4) + " that the track runs",
                        "Nothing is asked for where a line has no points.",
                        "the unit and the columns of its points, or a line from start to finish"});
     }
