@@ -25,6 +25,12 @@ std::string refusal(std::string_view text, Dimension dimension) {
   }
 }
 
+/// What a refused text's message says to try.
+std::string tried(const std::string& text, Dimension dimension) {
+  const std::string message = refusal(text, dimension);
+  return message.substr(message.rfind("Try: ") + 5);
+}
+
 }  // namespace
 
 TEST_CASE("a length in any unit is the double nearest to its value in metres") {
@@ -85,10 +91,6 @@ TEST_CASE("a value of another dimension is refused by its name") {
 }
 
 TEST_CASE("a value in an unknown unit is tried in a known one only where it means the same") {
-  const auto tried = [](const std::string& text, Dimension dimension) {
-    const std::string message = refusal(text, dimension);
-    return message.substr(message.rfind("Try: ") + 5);
-  };
   CHECK(tried("500 cm2", Dimension::area) == "500 cm^2");
   CHECK(tried("5 sqft", Dimension::area) == "0.464515 m^2");
   CHECK(tried("981 cm/s^2", Dimension::acceleration) == "9.81 m/s^2");
@@ -105,10 +107,6 @@ TEST_CASE("a value in an unknown unit is tried in a known one only where it mean
 }
 
 TEST_CASE("what to try for a value of a related quantity means what was written") {
-  const auto tried = [](const std::string& text, Dimension dimension) {
-    const std::string message = refusal(text, dimension);
-    return message.substr(message.rfind("Try: ") + 5);
-  };
   // A gradient is a tangent.
   CHECK(tried("30 %", Dimension::angle) == "16.7 deg, whose tangent is 30 %");
   CHECK(tried("-30 %", Dimension::angle) == "-16.7 deg, whose tangent is -30 %");

@@ -121,8 +121,8 @@ double log(double value) {
 }
 
 double log1p(double value) {
-  constexpr double kLarge =
-      1e300;  // theory: beyond it one is less than the last digit; SLEEF's sum overflows from 1e307 on
+  // Beyond it one is less than the last digit; SLEEF's sum overflows from 1e307 on.
+  constexpr double kLarge = 1e300;  // theory
   if (is_tiny(value)) return value;
   if (value > kLarge) return log(value);
   return Sleef_cinz_log1pd1_u10purec(value);

@@ -202,7 +202,7 @@ struct ShopPart {
   double density = 0.0;    ///< [kg/m^3]; > 0
   double volume = 0.0;     ///< of one piece's body, exactly [m^3]
   /// Of one piece [kg]. Of a wall beside a width that changes that of its sheet: `body`, as thick across the track as the
-  /// sheet is, is thinner by the cosine of what the wall leans along the track (1 to 4 %).
+  /// sheet is, is thinner by the cosine of what the wall leans along the track (by 4 % at most).
   double mass = 0.0;
   Vec3 centre_of_gravity;                       ///< of the first piece, in the frame of the assembly [m]
   std::array<double, 3> colour{0.7, 0.7, 0.7};  ///< red, green, blue: 0 to 1

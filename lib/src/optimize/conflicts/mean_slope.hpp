@@ -29,9 +29,10 @@ namespace glissade::optimizer {
 ///   1. At the start of a body at rest, or within a lead_in, N = g cos(entry slope).
 ///   2. At the finish of a track that is concave, or within a lead_out, N >= g cos(exit slope); where it goes up there, it
 ///      has been level in a valley before, N >= g.
-///   3. Between two ends, m the mean slope, of a free finish any that its bounds leave: a track that dips below the straight line has slope m and no crest where it
-///      is farthest below it (mean value theorem), N >= g cos(m). One that stays above begins no steeper than m, and from
-///      rest that asks for as much at the start, see 1. One that is concave stays below.
+///   3. Between two ends, m the mean slope (of a free finish any that its bounds and the limits on slopes leave): a track
+///      that dips below the straight line has slope m and no crest where it is farthest below it (mean value theorem),
+///      N >= g cos(m). One that stays above begins no steeper than m, and from rest that asks for as much at the start,
+///      see 1. One that is concave stays below.
 /// Identity: no track of optimize() has less, a property test.
 /// @return [m/s^2]; 0 where nothing is known
 [[nodiscard]] double least_load_anywhere(const Problem& problem);

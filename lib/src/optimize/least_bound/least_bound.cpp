@@ -111,7 +111,7 @@ class LeastBound {
     CenterlinePtr line;
     referee::Judgement judgement;
     double reached = 0.0;        ///< of what is bounded
-    bool is_open_above = false;  ///< a higher one would keep every limit, too
+    bool is_open_above = false;  ///< nothing but how far lines are looked at bounds its height
   };
 
   /// A start that needs no search: of the straight lines that the ends leave, the one with the least of what is bounded, and
