@@ -31,6 +31,7 @@
 #include "parts/strips/strip_shape.hpp"
 #include "parts/strips/strip_shell.hpp"
 #include "parts/strips/strips.hpp"
+#include "parts/supports/supports.hpp"
 #include "parts/tubes/mitred_pipe.hpp"
 #include "parts/tubes/tube_openings.hpp"
 

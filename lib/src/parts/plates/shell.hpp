@@ -91,10 +91,6 @@ std::vector<StandingPlate> add_stiffeners(const Shell& shell);
 /// @param stiffeners  that they keep off
 void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners);
 
-/// Trestles from the ground.
-/// @throws InputError where the ground leaves them no room, its line ends before one, or the track is too steep for any
-void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows);
-
 /// Mass and first moment of what belongs to a unit.
 struct UnitMass {
   double mass = 0.0;  ///< [kg]

@@ -24,6 +24,7 @@
 #include "parts/strips/strip_shape.hpp"
 #include "parts/strips/strip_shell.hpp"
 #include "parts/strips/strip_works.hpp"
+#include "parts/supports/supports.hpp"
 
 #include <algorithm>
 #include <cmath>

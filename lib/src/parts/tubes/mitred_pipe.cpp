@@ -23,6 +23,7 @@
 #include "parts/shop/workshop_list.hpp"
 #include "parts/strips/joint_steps.hpp"
 #include "parts/strips/strip_shell.hpp"
+#include "parts/supports/supports.hpp"
 #include "parts/tubes/trough_tops.hpp"
 #include "parts/tubes/tube_openings.hpp"
 
