@@ -8,7 +8,9 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -131,13 +133,58 @@ TEST_CASE("timber: legs have heads and feet, every board of theirs two bolts wit
     CHECK(item.name.size() <= 24);
     CHECK(item.where.size() <= 34);
   }
-  // Legs longer than lumber comes are told.
-  options.split.longest = 4.0;
-  const WorkshopBuild spliced = timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0);
-  bool told = false;
-  for (const std::string& note : spliced.workshop.notes)
-    told = told || note.starts_with("Longer than the 4 m of split.longest, to be spliced: leg_1");
-  CHECK(told);
+}
+
+namespace {
+
+/// The longer side of the narrowest strip round an outline, by turning it.
+double board_length(const ArcPath& outline) {
+  double narrowest = 1e9;
+  double length = 0.0;
+  for (int k = 0; k < 3600; ++k) {
+    const double angle = k * std::numbers::pi / 3600.0;
+    const Vec2 way{std::cos(angle), std::sin(angle)};
+    Vec2 low{1e9, 1e9};
+    Vec2 high{-1e9, -1e9};
+    for (const PathVertex& vertex : outline.vertices) {
+      const Vec2 turned{dot(vertex.at, way), cross(way, vertex.at)};
+      low = {std::min(low.x, turned.x), std::min(low.y, turned.y)};
+      high = {std::max(high.x, turned.x), std::max(high.y, turned.y)};
+    }
+    if (high.y - low.y >= narrowest) continue;
+    narrowest = high.y - low.y;
+    length = high.x - low.x;
+  }
+  return length;
+}
+
+}  // namespace
+
+TEST_CASE("timber: legs and boards longer than lumber comes are told, however they lie, and no others") {
+  std::size_t boards = 0;
+  for (const double longest : {1.2, 1.5, 1.7, 2.1, 4.0, 9.0}) {
+    CAPTURE(longest);
+    TimberOptions options;
+    options.legs = LegOptions{{{0.0, -8.0}}, 2.0, 90e-3};
+    options.split.longest = longest;
+    const WorkshopBuild build = timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0);
+    std::string note;
+    for (const std::string& one : build.workshop.notes) {
+      if (one.starts_with("Longer than the ")) note = one.substr(0, one.size() - 1) + ",";
+    }
+    for (const ShopPart& part : build.workshop.parts) {
+      if (!part.stands) continue;
+      const double length = board_length(part.pattern->region.outline);
+      if (std::fabs(length - longest) < 2e-3) continue;  // as near as turning by steps tells
+      const bool told = note.find(" " + part.name + ",") != std::string::npos;
+      CAPTURE(part.name, length, note);
+      CHECK(told == (length > longest));
+      const bool brace = part.name.find("brace") != std::string::npos;
+      if (brace && told) ++boards;
+    }
+    if (longest < 9.0) CHECK(note.find(" of split.longest, to be spliced: ") != std::string::npos);
+  }
+  CHECK(boards > 10);
 }
 
 TEST_CASE("timber troughs: every strip is screwed to every template below it") {

@@ -4,6 +4,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/least_rectangle.hpp"
 #include "parts/bodies/as_built.hpp"
 #include "parts/bodies/body_moments.hpp"
 #include "parts/bodies/clash.hpp"
@@ -324,8 +325,8 @@ void note_long_lumber(const TimberJob& job, Workshop& workshop) {
   std::string listed;
   for (const ShopPart& part : workshop.parts) {
     if (!part.stands) continue;
-    const PlaneBox box = bounds(part.pattern->region.outline);
-    if (std::max(box.width(), box.height()) <= job.options.split.longest) continue;
+    // Braces lie at a slant in their patterns.
+    if (core::least_size(part.pattern->region.outline).x <= job.options.split.longest) continue;
     listed += (listed.empty() ? "" : ", ") + part.name;
   }
   if (listed.empty()) return;
