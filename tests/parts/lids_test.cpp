@@ -5,9 +5,11 @@
 
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
+#include "support/random.hpp"
 #include "support/thorough.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -132,6 +134,50 @@ TEST_CASE(
   }
   CAPTURE(sent, built, tried);
   CHECK(76 * built > 40 * tried);
+}
+
+TEST_CASE(
+    "openings in rolled and bent sides are as long and as high as is asked for, lids lap over all round") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int draws = testing::thorough() ? 24 : 8;
+  int built = 0;
+  for (int i = 0; i < draws; ++i) {
+    const double bend = random.between(-1.0, 1.0) / 2.2;
+    const ClothoidSpline track(Angle::from_degrees(50.0),
+                               {{0.4, 0.0, 0.0}, {1.5, bend, bend}, {0.4, 0.0, 0.0}});
+    PlateOptions options;
+    options.floor = i % 2 == 0 ? FloorMake::rolled : FloorMake::bent;
+    options.flanges.wanted = false;
+    const double length = random.between(0.1, 0.25);
+    const double height = random.between(0.08, 0.16);
+    options.inspection = {{random.between(0.9, 1.4), length, height, 5}};
+    const double thick = 3e-3;
+    const section::Measures trough =
+        section::Trapezoid{WidthLaw(0.5), 0.5, Angle::from_degrees(random.between(2.0, 25.0)), thick};
+    CAPTURE(i, bend, length, height);
+    const std::string refused = refusal_of([&] { return plates_of(track, trough, options); });
+    if (options.floor == FloorMake::bent &&
+        refused.find("their ends lie off the bends of the left_wall") != std::string::npos)
+      continue;
+    const WorkshopBuild build = plates_of(track, trough, options);
+    ++built;
+    double opened = 0.0;
+    for (const VolumeDifference& one : build.proof.differences) {
+      if (one.what == "openings") opened -= one.volume;
+    }
+    // The middle line of the plate lies by half a thickness beside the face that is measured.
+    const double beside = 2.0 * std::fabs(bend) * thick + 1e-4;
+    CHECK(opened == Approx(length * height * thick).epsilon(beside));
+    double lids = 0.0;
+    for (const ShopPart* const lid : named(build, "lid")) {
+      lids += std::fabs(signed_area(lid->pattern->region.outline));
+      CHECK(lid->quantity() == 1);
+    }
+    // The lap of bolts up to M10 is 30 mm; lids lie a thickness farther out.
+    CHECK(lids == Approx((length + 0.06) * (height + 0.06)).epsilon(2.0 * beside));
+  }
+  CHECK(2 * built > draws);
 }
 
 TEST_CASE("openings too high for a side: the height that is told, in whole millimetres, builds") {

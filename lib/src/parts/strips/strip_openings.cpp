@@ -129,21 +129,60 @@ std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const
   return bolts;
 }
 
+/// What an opening and its lid take of the floor line to either side: lines above it are shorter in valleys, longer on crests, and
+/// what is asked for is the length of the opening's middle line.
+struct Reaches {
+  double opening = 0.0;
+  double lid = 0.0;
+};
+
+/// Half of the stretch of floor line about a place whose line at a height has a length; none where it folds away.
+std::optional<double> half_of(const StripJob& job, double at, double height, double length) {
+  constexpr int kMostSteps = 60;    // budget: each leaves a fraction of what was missing
+  constexpr double kMet = 1e-9;     // accuracy [m]
+  constexpr double kFolded = 0.05;  // taste: the least share that is left of a line
+  double half = 0.5 * length;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Span span{std::max(0.0, at - half), std::min(job.track.length(), at + half)};
+    const double lost = job.lost_at(span, height);
+    if (!(span.to - span.from - lost > kFolded * (span.to - span.from))) return std::nullopt;
+    const double missing = length + lost - 2.0 * half;
+    if (std::fabs(missing) < kMet) return half;
+    half += 0.5 * missing;
+  }
+  return std::nullopt;
+}
+
+std::optional<Reaches> reaches_at(const StripJob& job, const SectionPlate& plate, double across,
+                                  const InspectionOptions& opening, double at) {
+  const double height = (plate.face_from + across * plate.way()).y;
+  const auto half = half_of(job, at, height, opening.length);
+  const auto lid = half_of(job, at, height, opening.length + 2.0 * lid_lap(opening, job.options.shop));
+  if (!half || !lid) return std::nullopt;
+  return Reaches{*half, *lid};
+}
+
+/// A place for an opening, and what it takes there.
+struct OpeningPlace {
+  double at = 0.0;
+  Reaches reaches;
+};
+
 /// The place nearest to one at which an opening in a bent side, and its lid, begin and end off its bends: those may go across it.
-std::optional<double> off_bends(const StripJob& job, const SectionPlate& plate,
-                                const InspectionOptions& opening, const Span& within) {
+/// @param room  for the lid
+std::optional<OpeningPlace> off_bends(const StripJob& job, const SectionPlate& plate, double across,
+                                      const InspectionOptions& opening, const Span& room) {
   const Span heights = heights_of(job.section, plate);
   const OnOneArc ends(job.track, kOffJointOfOpening, heights, {}, job.rooms_at_bends(heights));
-  const double half = 0.5 * opening.length;
   constexpr double kStep = 0.5e-3;  // [m]
-  const double lap = lid_lap(opening, job.options.shop);
-  const double most = half + lap;
+  const double most = 0.5 * opening.length + lid_lap(opening, job.options.shop);
   for (double off = 0.0; off <= most; off += kStep) {
     for (const double at : {opening.at - off, opening.at + off}) {
-      if (at < within.from || at > within.to) continue;
-      const bool clear = ends.has(at - half) && ends.has(at + half) && ends.has(at - half - lap) &&
-                         ends.has(at + half + lap);
-      if (clear) return at;
+      const auto reaches = reaches_at(job, plate, across, opening, at);
+      if (!reaches || at - reaches->lid < room.from || at + reaches->lid > room.to) continue;
+      const bool clear = ends.has(at - reaches->opening) && ends.has(at + reaches->opening) &&
+                         ends.has(at - reaches->lid) && ends.has(at + reaches->lid);
+      if (clear) return OpeningPlace{at, *reaches};
     }
   }
   return std::nullopt;
@@ -151,28 +190,48 @@ std::optional<double> off_bends(const StripJob& job, const SectionPlate& plate,
 
 /// The place nearest to one at which an opening lies on one arc of a rolled side, its lid where the width does not change.
 /// @param room  for the lid
-std::optional<double> on_one_arc(const StripJob& job, const SectionPlate& plate,
-                                 const InspectionOptions& opening, const Span& room) {
-  const double reach = 0.5 * opening.length + lid_lap(opening, job.options.shop);
-  const OnOneArc arcs(job.track, 0.5 * opening.length + kOffJointOfOpening, heights_of(job.section, plate),
-                      job.widens() ? job.pieces() : std::vector<double>());
-  std::optional<double> best;
-  for (const Span& even : job.widens() ? even_stretches(job, room) : std::vector<Span>{room}) {
-    const auto at = arcs.nearest(opening.at, {even.from + reach, even.to - reach});
-    if (at && (!best || std::fabs(*at - opening.at) < std::fabs(*best - opening.at))) best = at;
+std::optional<OpeningPlace> on_one_arc(const StripJob& job, const SectionPlate& plate, double across,
+                                       const InspectionOptions& opening, const Span& room) {
+  std::optional<OpeningPlace> best;
+  const auto is_nearer = [&](double at) {
+    return !best || std::fabs(at - opening.at) < std::fabs(best->at - opening.at);
+  };
+  const auto look_on = [&](const Span& stretch) {
+    // What it takes is that of an arc: the same all along it, but for lids that reach beyond.
+    const double about = std::clamp(opening.at, stretch.from, stretch.to);
+    auto reaches = reaches_at(job, plate, across, opening, about);
+    constexpr int kMostTimes = 4;  // budget
+    for (int time = 0; reaches && time < kMostTimes; ++time) {
+      const OnOneArc arcs(job.track, reaches->opening + kOffJointOfOpening, heights_of(job.section, plate),
+                          job.widens() ? job.pieces() : std::vector<double>());
+      const auto at = arcs.nearest(opening.at, {stretch.from + reaches->lid, stretch.to - reaches->lid});
+      if (!at) return;
+      const auto there = reaches_at(job, plate, across, opening, *at);
+      constexpr double kSame = 1e-9;  // rounding [m]
+      const bool fits =
+          there && there->opening <= reaches->opening + kSame && there->lid <= reaches->lid + kSame;
+      if (fits && is_nearer(*at)) best = OpeningPlace{*at, *there};
+      if (fits) return;
+      reaches = there;
+    }
+  };
+  const std::vector<Span> stretches = job.widens() ? even_stretches(job, room) : std::vector<Span>{room};
+  for (const Span& even : stretches) {
+    look_on(even);
+    for (const StripArc& one : job.arcs_in(even)) look_on({one.arc.start, one.arc.start + one.arc.length});
   }
   return best;
 }
 
-StripWindow window_at(const Side& side, std::size_t unit, const InspectionOptions& opening, double at,
-                      double lap) {
+StripWindow window_at(const Side& side, std::size_t unit, const InspectionOptions& opening,
+                      const OpeningPlace& place, double lap) {
   const double middle = 0.5 * (side.room.from + side.room.to);
   StripWindow window;
   window.plate = side.plate;
   window.unit = unit;
-  window.along = {at - 0.5 * opening.length, at + 0.5 * opening.length};
+  window.along = {place.at - place.reaches.opening, place.at + place.reaches.opening};
   window.across = {middle - 0.5 * opening.height, middle + 0.5 * opening.height};
-  window.lid_along = {window.along.from - lap, window.along.to + lap};
+  window.lid_along = {place.at - place.reaches.lid, place.at + place.reaches.lid};
   window.lid_across = {window.across.from - lap, window.across.to + lap};
   window.bolt = opening.bolt;
   window.asked = opening.at;
@@ -240,12 +299,11 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
     const double lap = lid_lap(opening, job.options.shop);
     const double reach = 0.5 * opening.length + lap;
     if (opening.at < unit.from || opening.at >= unit.to) continue;
-    const Span within{room.from + reach, room.to - reach};
-    // Of a span that is none no place lies in it.
-    const std::optional<double> at =
-        job.bent() ? off_bends(job, plate, opening, within) : on_one_arc(job, plate, opening, room);
+    const double across = 0.5 * (side.room.from + side.room.to);
+    const std::optional<OpeningPlace> place = job.bent() ? off_bends(job, plate, across, opening, room)
+                                                         : on_one_arc(job, plate, across, opening, room);
     const std::string where = "at: an opening at " + length_text(job.on_track(opening.at), 4);
-    if (!at) {
+    if (!place) {
       issues.add(where + " finds no place in its unit",
                  "Units end at " + length_text(job.on_track(unit.from), 4) + " and " +
                      length_text(job.on_track(unit.to), 4) + "; it is " + length_text(opening.length) +
@@ -258,15 +316,15 @@ std::vector<StripWindow> windows_of(const StripJob& job, const Span& unit, std::
       continue;
     }
     // It may not be moved out of reach of what it is there for.
-    if (std::fabs(*at - opening.at) > reach) {
+    if (std::fabs(place->at - opening.at) > std::max(reach, place->reaches.lid)) {
       issues.add(where + " lies across a change of radius" +
                      (job.widens() ? ", where the width changes," : ",") + " or the end of a unit",
                  "Openings lie on one arc of the " + plate.name + ", " + length_text(opening.length) +
                      " long, with lids that lap over by " + length_text(lap) + ".",
-                 "at: " + length_text(*at, 4) + ", or a smaller length");
+                 "at: " + length_text(place->at, 4) + ", or a smaller length");
       continue;
     }
-    windows.push_back(window_at(side, index, opening, *at, lap));
+    windows.push_back(window_at(side, index, opening, *place, lap));
     if (!clear_of_frames(job, unit, windows.back())) {
       issues.add(where + " lies beside a frame",
                  "Where the track bends tighter than the " + plate.name +

@@ -191,6 +191,18 @@ std::vector<StripArc> StripJob::arcs_in(const Span& span) const {
   return found;
 }
 
+double StripJob::lost_at(const Span& span, double height) const {
+  double lost = 0.0;
+  for (const StripArc& one : arcs_) {
+    const double from = std::max(span.from, one.arc.start);
+    const double to = std::min(span.to, one.arc.start + one.arc.length);
+    if (to > from) lost += (to - from) * one.arc.curvature * height;
+    const bool across = one.arc.start > span.from && one.arc.start < span.to;
+    if (across) lost += 2.0 * one.mitre_from * height;
+  }
+  return lost;
+}
+
 double StripJob::wider_at(double s) const {
   if (!section.widths) return 0.0;
   return 0.5 * (section.widths->at(std::clamp(s, 0.0, track.length())) - section.widths->narrowest());

@@ -57,6 +57,8 @@ class StripJob {
   [[nodiscard]] bool widens() const { return section.widths.has_value(); }
   /// @return arcs of the track within a span, cut where the width begins or ends to change and where they turn far
   [[nodiscard]] std::vector<StripArc> arcs_in(const Span& span) const;
+  /// @return by how much the line at a height above the floor line is shorter than that within a span; negative where it is longer [m]
+  [[nodiscard]] double lost_at(const Span& span, double height) const;
   /// @return by how much half the section is wider than at its narrowest, and how it leans, at a place
   [[nodiscard]] double wider_at(double s) const;
   [[nodiscard]] double lean_at(double s) const;
