@@ -229,6 +229,8 @@ TEST_CASE("an unused vertex is counted and is no fault") {
   mesh.vertices.push_back({5, 5, 5});
   const MeshFacts facts = measure(mesh);
   CHECK(facts.unused_vertices == 1);
+  CHECK(facts.upper.x == measure(unit_cube()).upper.x);  // no part of the solid
+  CHECK(facts.volume == measure(unit_cube()).volume);
   CHECK(facts.euler_characteristic == 2);
   CHECK(facts.valid());
 }

@@ -251,12 +251,18 @@ Welding weld(const std::vector<Vec3>& vertices, const std::stop_token& stop) {
   return welding;
 }
 
-void measure_bounds(const std::vector<Vec3>& vertices, MeshFacts& facts) {
-  if (vertices.empty()) return;
-  facts.lower = facts.upper = vertices.front();
-  for (const Vec3& p : vertices) {
-    facts.lower = {std::min(facts.lower.x, p.x), std::min(facts.lower.y, p.y), std::min(facts.lower.z, p.z)};
-    facts.upper = {std::max(facts.upper.x, p.x), std::max(facts.upper.y, p.y), std::max(facts.upper.z, p.z)};
+/// Of what facets reach: vertices that no facet has are no part of the solid.
+void measure_bounds(const TriangleMesh& mesh, MeshFacts& facts) {
+  if (mesh.triangles.empty()) return;
+  facts.lower = facts.upper = mesh.vertices[mesh.triangles.front().front()];
+  for (const FacetCorners& facet : mesh.triangles) {
+    for (const std::uint32_t corner : facet) {
+      const Vec3& p = mesh.vertices[corner];
+      facts.lower = {std::min(facts.lower.x, p.x), std::min(facts.lower.y, p.y),
+                     std::min(facts.lower.z, p.z)};
+      facts.upper = {std::max(facts.upper.x, p.x), std::max(facts.upper.y, p.y),
+                     std::max(facts.upper.z, p.z)};
+    }
   }
 }
 
@@ -451,7 +457,7 @@ MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop) {
   MeshFacts facts;
   facts.vertices = mesh.vertices.size();
   facts.triangles = mesh.triangles.size();
-  measure_bounds(mesh.vertices, facts);
+  measure_bounds(mesh, facts);
   {
     const Welding welding = weld(mesh.vertices, stop);
     require_going(stop);

@@ -38,7 +38,7 @@ struct MeshFacts {
   std::size_t non_manifold_vertices = 0;  ///< vertices whose facets are not one fan
   std::size_t degenerate_facets = 0;      ///< corners on one line, or the same vertex twice
   std::size_t duplicate_vertices = 0;     ///< vertices at the position of an earlier one
-  std::size_t unused_vertices = 0;
+  std::size_t unused_vertices = 0;        ///< that no facet has; no fault, and no part of the bounding box
   /// Pairs of facets that meet elsewhere than in a common edge or vertex (common: of equal position).
   /// Degenerate facets are left out, they are a fault of their own.
   std::size_t self_intersections = 0;
@@ -55,7 +55,7 @@ struct MeshFacts {
   Angle smallest_angle;        ///< of any facet; 0 if one is degenerate
   double shortest_edge = 0.0;  ///< [m]
   MeshFaultPlaces places;
-  Vec3 lower;  ///< bounding box [m]
+  Vec3 lower;  ///< bounding box of the facets [m]
   Vec3 upper;
 
   [[nodiscard]] bool closed() const { return triangles > 0 && boundary_edges == 0; }
