@@ -150,6 +150,25 @@ TEST_CASE("the price of a limit in drop is what the drop changes by") {
   CHECK(std::fabs(price_of(lowest, LimitId::highest_curvature_rate) / measured - 1.0) < 1e-3);
 }
 
+TEST_CASE("the price of a straight end is what the drop or the length changes by") {
+  for (const ObjectiveKind kind : {ObjectiveKind::least_drop, ObjectiveKind::least_length}) {
+    CAPTURE(static_cast<int>(kind));
+    Problem problem = in_run(kind);
+    problem.limits.lead_in = 5.0;
+    const Optimum best = solved(problem);
+    const auto measure_with = [&](double by) {
+      Problem changed = problem;
+      changed.limits.lead_out += by;
+      const Optimum there = solved(changed);
+      return kind == ObjectiveKind::least_drop ? drop_of(there) : there.centerline->length();
+    };
+    constexpr double kStep = 0.05;
+    const double measured = (measure_with(kStep) - measure_with(-kStep)) / (2.0 * kStep);
+    CHECK(price_of(best, LimitId::lead_out) == Approx(measured).epsilon(1e-3));
+    CHECK(best.report.finer_mesh_wins.value() < 1e-6);
+  }
+}
+
 TEST_CASE("a limit that is relaxed never asks for a higher start") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

@@ -258,6 +258,33 @@ TEST_CASE("a price is that of the optimum's own rows where programs to either si
   CHECK(active.price == Approx(won).epsilon(0.05));
 }
 
+TEST_CASE("of a kink that no finer mesh confirms one price is told, with how sure it is") {
+  // Told as 0.307 looser and 0.689 tighter, each sure, where re-solves win 0.43 to either side.
+  Problem problem;
+  problem.endpoints = {13.68, 11.03};
+  problem.body.friction = Friction::from_coefficient(0.00742);
+  problem.low_friction = Friction::from_coefficient(0.003852);
+  problem.high_friction = Friction::from_coefficient(0.01027);
+  problem.body.entry_speed = 2.453;
+  problem.objective.worst_case = true;
+  problem.limits.smallest_valley_radius = 4.516;
+  problem.limits.smallest_crest_radius = 4.516;
+  problem.limits.exit_slope_angle = Range::fixed(6.56 * kRightAngle / 90.0);
+  problem.limits.arc_length.lowest = 18.52;
+  problem.limits.waypoints = {{6.54948, 5.548}};
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  const ActiveLimit& active = active_of(report, "arc_length.lowest");
+  CHECK(!active.tightening_price);
+  constexpr double kStep = 0.01;
+  const double looser = won_by(problem, report, active.limit, active.value, -kStep);
+  const double tighter = won_by(problem, report, active.limit, active.value, kStep);
+  CAPTURE(active.price, active.price_error, looser, tighter);
+  CHECK(looser == Approx(-tighter).epsilon(0.03));
+  const double share = active.price_error + kPriceAccuracy;
+  CHECK(active.price == Approx(0.5 * (looser - tighter)).epsilon(share));
+}
+
 namespace {
 
 /// How many prices of random problems were held against re-solves.

@@ -423,7 +423,10 @@ std::optional<double> left_to_win(const Candidate& best, const PricedLimits& pri
   const Found& found = *best.found;
   const double size = std::fabs(found.objective);
   double halving = (std::max(0.0, found.objective - priced.least) + priced.rest) / size;
-  if (!on_finest) halving = std::max(halving, kAgain * *best.ahead.finer_mesh_wins);
+  // What a program promises counts where no mesh of all pieces halved has told it.
+  const double promised =
+      priced.halved_wins ? std::max(0.0, *priced.halved_wins) / size : *best.ahead.finer_mesh_wins;
+  if (!on_finest) halving = std::max(halving, kAgain * promised);
   return halving + lost_to_margins(*best.problem, found) / size + kOfRoom * best.ahead.moves_promise +
          best.sharper_crest_wins;
 }

@@ -146,6 +146,7 @@ struct Priced {
   Vector error;        ///< of each, by what it still changes from mesh to mesh; 0 where it stays
   Found finest;        ///< the best one on the way there
   double rest = 0.0;   ///< as in PricedLimits
+  std::optional<double> halved_wins = {};  ///< as in PricedLimits
 };
 
 /// Multipliers on one mesh after the other: what they tend to.
@@ -247,6 +248,8 @@ Priced priced(const ScaledProblem& problem, Found found, const Vector& by_limit,
     ahead = carried_by(problem, *halved, 1.0);
     same = same_prices(begun, ahead);
   }
+  std::optional<double> halved_wins;
+  if (halved && is_smooth(problem)) halved_wins = found.objective - halved->objective;
   const bool refined = !same;
   const bool begins_halved = refined && halved && is_smooth(problem);
   if (refined && !is_smooth(problem)) moved = with_knots_at_rest(problem, found, options, control);
@@ -279,7 +282,8 @@ Priced priced(const ScaledProblem& problem, Found found, const Vector& by_limit,
     same = sequence.stays();
   }
   const Vector none(begun.size(), 0.0);
-  Priced result{std::move(found), std::move(before), sequence.last(), none, std::move(finest), rest};
+  Priced result{std::move(found), std::move(before), sequence.last(), none, std::move(finest), rest,
+                halved_wins};
   if (!same) take_limits(sequence, ahead, result);
   for (std::size_t i = 0; refined && i < problem.limits.size(); ++i) {
     // What a finer mesh leaves as it is was right before others were looked for.
@@ -394,6 +398,15 @@ struct PriceKink {
   bool lasts = true;  ///< another mesh has it, too, and as wide
 };
 
+/// An optimum on a finer mesh, of all pieces halved or else of those near what binds.
+std::optional<Found> beside_kinks(const ScaledProblem& problem, const Found& found,
+                                  const OptimizeOptions& options, SearchControl& control) {
+  const MeshTrack all = with_all_halved(*found.track, found.z);
+  if (auto next = on_finer_mesh(problem, found, all, options, control)) return next;
+  const std::vector<bool> every(problem.limits.size(), true);
+  return on_finer_mesh(problem, found, with_halved_near(found, every), options, control);
+}
+
 /// Where a mesh lets two rows just touch there is a kink on it alone, or one that narrows with its pieces.
 /// @param at  the optimum on a mesh of halved pieces, where that has not the same kinks
 std::vector<PriceKink> kinks_of(const ScaledProblem& problem, Priced& at, const OptimizeOptions& options,
@@ -403,11 +416,11 @@ std::vector<PriceKink> kinks_of(const ScaledProblem& problem, Priced& at, const 
   const std::vector<OneSidedPrice> prices = one_sided_prices(problem, at.found);
   if (prices.empty()) return {};
   std::optional<Found> finer;
-  if (!at.before) {
-    finer = on_finer_mesh(problem, at.found, with_all_halved(*at.found.track, at.found.z), options, control);
-  }
-  const Found& other = at.before ? *at.before : finer ? *finer : at.found;
-  const std::vector<OneSidedPrice> others = one_sided_prices(problem, other);
+  if (!at.before) finer = beside_kinks(problem, at.found, options, control);
+  const Found* const other = at.before ? &*at.before : finer ? &*finer : nullptr;
+  // Without another mesh nothing tells whose kinks they are.
+  const std::vector<OneSidedPrice> others =
+      other != nullptr ? one_sided_prices(problem, *other) : std::vector<OneSidedPrice>{};
   const auto width = [](const OneSidedPrice& price) { return price.tightening - price.relaxing; };
   std::vector<PriceKink> kinks;
   bool all_last = true;
@@ -415,6 +428,7 @@ std::vector<PriceKink> kinks_of(const ScaledProblem& problem, Priced& at, const 
     const auto there = std::find_if(others.begin(), others.end(),
                                     [&](const OneSidedPrice& one) { return one.limit == price.limit; });
     bool lasts = false;
+    if (other == nullptr) kinks.push_back({price, std::isinf(width(price))});
     if (there != others.end()) {
       const OneSidedPrice& narrow = width(*there) < width(price) ? *there : price;
       const double wide = std::max(width(*there), width(price));
@@ -463,6 +477,7 @@ PricedLimits priced_limits(const ScaledProblem& problem, const Found& found, con
   result.length = (problem.lead_in + core + problem.lead_out) * problem.chord;
   result.least = at.finest.objective;
   result.rest = at.rest;
+  result.halved_wins = at.halved_wins;
   const double known = result.better ? result.better->objective : found.objective;
   if (!(known - at.finest.objective > kPays * std::fabs(known))) return result;
   std::optional<Found> finest =

@@ -33,6 +33,8 @@ struct PricedLimits {
   bool is_finest = false;  ///< the better one is that on the finest mesh
   double least = 0.0;      ///< objective of the best optimum on any of these meshes, to some 1e-9
   double rest = 0.0;       ///< by which meshes finer still would be better yet, at first order
+  /// By which the optimum on a mesh of all pieces halved is better, where nothing jumps and one was found: known, not promised.
+  std::optional<double> halved_wins;
 };
 [[nodiscard]] PricedLimits priced_limits(const ScaledProblem& problem, const Found& found,
                                          const Vector& ahead, const OptimizeOptions& options,

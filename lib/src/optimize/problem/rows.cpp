@@ -93,7 +93,9 @@ double Rows::objective(const State& state) const {
     value -= problem_.speed_weight * std::copysign(std::sqrt(std::fabs(v)), v);
   }
   value += problem_.drop_weight * state.drop();
-  value += problem_.length_weight * track_.core_length(state.z);
+  // With its straight ends: what changes with them is what they cost.
+  const double length = problem_.lead_in + track_.core_length(state.z) + problem_.lead_out;
+  value += problem_.length_weight * length;
   return value;
 }
 

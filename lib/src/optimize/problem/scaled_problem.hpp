@@ -85,7 +85,7 @@ struct ScaledProblem {
   double time_weight = 1.0;  ///< objective: time_weight T - speed_weight u(S), both scaled
   double speed_weight = 0.0;
   double drop_weight = 0.0;    ///< ... + drop_weight times the drop
-  double length_weight = 0.0;  ///< ... + length_weight times the length of the core
+  double length_weight = 0.0;  ///< ... + length_weight times the length
   std::vector<LimitSpec> limits;
   std::vector<Obstacle> obstacles;
   double envelope_low = 0.0;   ///< heights that clearances are measured from: of the underside, <= 0
