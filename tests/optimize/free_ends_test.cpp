@@ -6,6 +6,7 @@
 
 #include "optimize/conflicts/mean_slope.hpp"
 #include "optimize/least_bound/bound_bracket.hpp"
+#include "optimize/problem/changed_bound.hpp"
 #include "optimize/solved.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -510,7 +511,22 @@ TEST_CASE(
   CHECK(least.report.message == "every limit holds, and no track keeps a tighter bound");
   CHECK(least.report.evaluations < 10000);  // 7,000; 23,600 where it is halved down to
   const double load = Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+  // What holds it up is told, and costs nothing in speed.
+  CHECK(!least.report.active.empty());
+  CHECK(price_of(least, LimitId::exit_speed) == 0.0);
   if (!testing::thorough()) return;
+  for (const ActiveLimit& active : least.report.active) {
+    const auto least_with = [&](double by) {
+      const Problem changed = *optimizer::with_bound(problem, active.limit, active.value + by);
+      const Optimum there = solved(changed);
+      return Motion(there.centerline, changed.body, kGravity).highest_load().normal_load;
+    };
+    constexpr double kShare = 3e-3;
+    const double step = kShare * std::fabs(active.value);
+    const double measured = std::fabs(least_with(step) - least_with(-step)) / (2.0 * step);
+    CAPTURE(active.limit.key(), measured);
+    CHECK(active.price == Approx(measured).epsilon(0.02));
+  }
   // Another way to it: what the fastest track may carry.
   problem.objective.kind = ObjectiveKind::travel_time;
   problem.limits.highest_normal_load = load * (1.0 + 1e-5);

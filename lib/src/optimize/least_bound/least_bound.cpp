@@ -316,12 +316,12 @@ class LeastBound {
     if (!best_foothold_) return 0.0;
     Problem problem = tried_;
     problem.limits.*member_ = bracket_.tight;
-    const std::optional<double> least = least_kept_near(problem, name_, *best_foothold_, control_);
+    const std::optional<LeastKept> least = least_kept_near(problem, name_, *best_foothold_, control_);
     const double below = bracket_.loose * (1.0 - kJustBelow * bracket_.accuracy());
     if (!least) return 0.0;
-    if (verdict != Verdict::does || *least < below) {
+    if (verdict != Verdict::does || least->bound < below) {
       step_ = kFirstStep;
-      return *least * (1.0 + step_);
+      return least->bound * (1.0 + step_);
     }
     step_ = 0.0;
     return below;
@@ -420,7 +420,7 @@ class LeastBound {
       std::sort(report.active.begin(), report.active.end(),
                 [](const ActiveLimit& a, const ActiveLimit& b) { return a.limit.key() < b.limit.key(); });
     } else {
-      report.active.clear();
+      report.active = holding_up();
     }
     report.checks = check_limits(asked_, best_.centerline);
     if (!settled_) {
@@ -434,6 +434,19 @@ class LeastBound {
                            : "every limit holds, and a tighter bound keeps the exit speed from being reached";
     }
     return outlay_.told(std::move(best_), asked_.objective);
+  }
+
+  /// Where no track keeps a tighter bound, however slow it is: the limits that keep it from being tighter.
+  [[nodiscard]] std::vector<ActiveLimit> holding_up() {
+    constexpr double kSame =
+        1e-3;  // accuracy: what a descent on one mesh may miss the bound by, its prices hold
+    const bool is_held_up = settled_ && bracket_.why == Verdict::kept_by_none && bracket_.tight > 0.0;
+    if (!is_held_up || !best_foothold_ || outlay_.ends()) return {};
+    Problem problem = tried_;
+    problem.limits.*member_ = bracket_.tight * (1.0 - kSame);
+    std::optional<LeastKept> least = least_kept_near(problem, name_, *best_foothold_, control_);
+    if (!least || std::fabs(least->bound / bracket_.loose - 1.0) > kSame) return {};
+    return std::move(least->holding);
   }
 
   /// What is left open: "of bounds between 14.2 m/s^2, which is too tight, and 14.9 m/s^2 searches did not tell"

@@ -1,6 +1,7 @@
 #include "optimize/least_bound/least_kept.hpp"
 
 #include "optimize/descent/least_violation.hpp"
+#include "optimize/prices/prices.hpp"
 #include "optimize/problem/changed_bound.hpp"
 #include "optimize/problem/passages.hpp"
 
@@ -14,12 +15,12 @@ namespace {
 constexpr double kOthersKept = 1e-6;  // accuracy: ten times that of a limit
 
 /// Descents of one limit's violation, by one way past the keep-outs.
-class LeastKept {
+class LeastKeptSearch {
  public:
-  LeastKept(const Problem& problem, const LimitName& name, const Passages& way, SearchControl& control)
+  LeastKeptSearch(const Problem& problem, const LimitName& name, const Passages& way, SearchControl& control)
       : problem_(problem), name_(name), way_(way), control_(control) {}
 
-  [[nodiscard]] std::optional<double> near(const Mesh& mesh, const Vector& z) {
+  [[nodiscard]] std::optional<LeastKept> near(const Mesh& mesh, const Vector& z) {
     return closed(descended(problem_, mesh, z));
   }
 
@@ -51,16 +52,17 @@ class LeastKept {
   }
 
   /// How well a descent finds the least goes with how far that is from the bound: from ever closer ones.
-  [[nodiscard]] std::optional<double> closed(End end) {
+  [[nodiscard]] std::optional<LeastKept> closed(End end) {
     constexpr double kOfGap = 0.05;        // measured: a descent leaves less than a hundredth
     constexpr double kCloseEnough = 1e-7;  // accuracy: a tenth of what such bounds are told to
     constexpr int kMostDescents = 24;      // budget
     std::optional<double> least = bound_of(end);
+    std::optional<End> held_up = least ? std::optional(end) : std::nullopt;
     std::optional<double> tight = bound_now(problem_);
     double share = kOfGap;
     for (int i = 0; least && tight && i < kMostDescents && !control_.stop(); ++i) {
       const double next = *least - share * (*least - *tight);
-      if (*least - next <= kCloseEnough * *least) return least;
+      if (*least - next <= kCloseEnough * *least) return LeastKept{*least, holding(*held_up)};
       const std::optional<Problem> closer = with_bound(problem_, name_, next);
       if (!closer) return std::nullopt;
       End trial = descended(*closer, end.relaxed.found.track->mesh(), end.relaxed.found.z);
@@ -72,10 +74,22 @@ class LeastKept {
         least = bound_of(trial);
         tight = next;
         share = kOfGap;
+        if (least) held_up = trial;
       }
       end = std::move(trial);
     }
     return std::nullopt;
+  }
+
+  /// What the others carry, for each unit that the limit itself does.
+  [[nodiscard]] std::vector<ActiveLimit> holding(const End& end) const {
+    std::vector<ActiveLimit> active = active_limits(*end.problem, end.relaxed.found, 0.0);
+    double own = 0.0;
+    for (const ActiveLimit& one : active) own += one.limit == name_ ? one.price : 0.0;
+    std::erase_if(active, [&](const ActiveLimit& one) { return one.limit == name_; });
+    if (!(own > 0.0)) return {};
+    for (ActiveLimit& one : active) one.price /= own;
+    return active;
   }
 
   [[nodiscard]] std::optional<double> bound_now(const Problem& problem) const {
@@ -93,10 +107,10 @@ class LeastKept {
 
 }  // namespace
 
-std::optional<double> least_kept_near(const Problem& problem, const LimitName& name, const Foothold& track,
-                                      SearchControl& control) {
+std::optional<LeastKept> least_kept_near(const Problem& problem, const LimitName& name, const Foothold& track,
+                                         SearchControl& control) {
   const std::vector<Passages> ways = all_passages(problem.limits);
-  return LeastKept(problem, name, ways[track.passages], control).near(track.mesh, track.z);
+  return LeastKeptSearch(problem, name, ways[track.passages], control).near(track.mesh, track.z);
 }
 
 }  // namespace glissade::optimizer
