@@ -717,6 +717,28 @@ BriefEnd searched(const Problem& problem, const OptimizeOptions& options, Reason
   return end;
 }
 
+/// The search that goes on from a track it is given: no other starts, and no reasons where it leads to none.
+BriefEnd searched_from(const Problem& problem, const OptimizeOptions& options, const Foothold& foothold,
+                       Patience& patience, SearchControl& control, const Progress& progress) {
+  BriefEnd end;
+  Optimum& optimum = end.optimum;
+  OptimizeReport& report = optimum.report;
+  report.objective = problem.objective;
+  report.unlimited_travel_time = unlimited_travel_time(problem);
+  Course course(problem, options, control, progress);
+  course.from(foothold);
+  report.ended_early = course.stopped();
+  if (!course.kept()) {
+    tell_none({}, false, course.stopped(), report);
+    return end;
+  }
+  tell_track(course, options, control, progress, report);
+  optimum.centerline = course.best().track;
+  tell_end(problem, options, course, patience.out_of_time(), false, optimum);
+  if (is_track_of(course, optimum)) end.foothold = course.foothold();
+  return end;
+}
+
 /// A track that ends where it is asked to. A search ends with the finish met as well as any limit is kept, mostly far better; with a
 /// crest that turns within 1e-8 of the track it may stay at the former. Turned and scaled by what it misses the track meets it,
 /// and keeps what it kept to as much.
@@ -750,13 +772,16 @@ void meet_finish(const Problem& problem, double tolerance, Optimum& optimum) {
 }
 
 /// One search, of a problem that is sound.
+/// @param foothold  that it goes on from; none: from its own starts
 BriefEnd searched_once(const Problem& problem, const OptimizeOptions& options, Reasons reasons,
-                       const std::stop_token& stop, const Progress& progress) {
+                       const std::stop_token& stop, const Progress& progress,
+                       const Foothold* foothold = nullptr) {
   Patience patience(options.time_budget, stop);
   SearchControl control;
   control.limit_tolerance = 0.1 * options.limit_tolerance;
   control.stop = [&] { return patience.ends(); };
-  BriefEnd end = searched(problem, options, reasons, patience, control, progress);
+  BriefEnd end = foothold != nullptr ? searched_from(problem, options, *foothold, patience, control, progress)
+                                     : searched(problem, options, reasons, patience, control, progress);
   meet_finish(problem, options.limit_tolerance, end.optimum);
   end.optimum.report.iterations = control.rounds;
   end.optimum.report.evaluations = control.evaluations;
@@ -785,6 +810,14 @@ BriefEnd optimize_briefly(const Problem& problem, const OptimizeOptions& options
                           const Progress& progress) {
   const Problem allowed = with_mean_slope_allowed(problem, options.limit_tolerance);
   BriefEnd end = searched_once(allowed, options, Reasons::alone, stop, progress);
+  end.optimum = with_stop_told(std::move(end.optimum), stop);
+  return end;
+}
+
+BriefEnd optimize_from(const Problem& problem, const Foothold& foothold, const OptimizeOptions& options,
+                       const std::stop_token& stop, const Progress& progress) {
+  const Problem allowed = with_mean_slope_allowed(problem, options.limit_tolerance);
+  BriefEnd end = searched_once(allowed, options, Reasons::alone, stop, progress, &foothold);
   end.optimum = with_stop_told(std::move(end.optimum), stop);
   return end;
 }

@@ -36,6 +36,12 @@ constexpr double kSpeedAccuracy = 1e-9;  // of the speed wanted; accuracy
 constexpr double kSpeedReached = 1e-6;   // of the speed wanted: ten times the accuracy of a limit
 // The least bound is looked at from so far below: a search that lost its way at it would show there.
 constexpr double kNeighbour = 1e-4;  // taste
+// From a bound that does so far down a track may lead to one that keeps a tighter one, ...
+constexpr double kLeads = 1e-2;  // taste
+// ... where it is faster than is asked for by such a share.
+constexpr double kSpareSpeed = 1e-2;  // taste
+// Where a descent from the best track wins less, and searches below it come to no end, it is the least beside it.
+constexpr double kLeftAtMost = 1e-5;  // accuracy: ten times that of such a bound
 
 class LeastBound {
  public:
@@ -223,8 +229,35 @@ class LeastBound {
     return std::nullopt;
   }
 
+  /// Near what no track goes below those that keep a bound are few and all alike: the best one known leads to one, where starts of
+  /// their own take a hundred times as long, or come to no end.
+  /// @return whether it did
+  [[nodiscard]] bool leads_to(double bound) {
+    constexpr std::size_t kMostKnots = 90;  // budget: meshes grow from one to the next
+    const bool is_near = bracket_.why == Verdict::kept_by_none && bracket_.tight > 0.0 &&
+                         bound > (1.0 - kLeads) * bracket_.loose;
+    if (!is_near || !best_foothold_ || !best_by_speed_) return false;
+    if (best_foothold_->mesh.knots.size() > kMostKnots) return false;
+    OptimizeOptions options = options_;
+    options.time_budget = outlay_.left();
+    tried_.limits.*member_ = bound;
+    BriefEnd end = optimize_from(tried_, *best_foothold_, options, stop_, progress_);
+    ++searches_;
+    outlay_.add(end.optimum.report);
+    if (!end.optimum.centerline || end.optimum.report.status != OptimizeStatus::optimal) return false;
+    const double excess = slowest_of(end.optimum) - wanted_;
+    // Beside the speed wanted another track may be the faster one.
+    if (!(excess > kSpareSpeed * wanted_)) return false;
+    excess_ = excess;
+    price_ = price_in(end.optimum.report);
+    foothold_ = std::move(end.foothold);
+    take(std::move(end.optimum));
+    return true;
+  }
+
   /// Looks at a bound, by a second way where the first comes to no end.
   Verdict look(double bound) {
+    if (leads_to(bound)) return Verdict::does;
     Optimum fastest = within(bound);
     excess_ = fastest.centerline ? slowest_of(fastest) - wanted_ : -wanted_;
     price_ = fastest.centerline ? price_in(fastest.report) : 0.0;
@@ -256,13 +289,33 @@ class LeastBound {
         return;
       }
       const Verdict verdict = look(bound);
-      if (verdict == Verdict::untold) ++untold;
+      if (verdict == Verdict::untold) {
+        ++untold;
+        if (is_least_beside()) return;
+      }
       bracket_.learn(verdict == Verdict::does ? std::min(bound, reached_by(best_.centerline)) : bound,
                      verdict);
       settled_ = settled_ || is_as_good_as_none(bracket_.loose);
       if (settled_) return;
       bound = next_after(bound, verdict);
     }
+  }
+
+  /// Where searches below the best track come to no end: whether no small change of it does better, by a descent.
+  [[nodiscard]] bool is_least_beside() {
+    const std::optional<LeastKept> least = least_beside(bracket_.tight);
+    if (!least || !(least->bound > (1.0 - kLeftAtMost) * bracket_.loose)) return false;
+    left_beside_ = std::max(0.0, 1.0 - least->bound / bracket_.loose);
+    settled_ = true;
+    return true;
+  }
+
+  /// The least that a descent from the best track comes to. @param tight  a bound that no track keeps
+  [[nodiscard]] std::optional<LeastKept> least_beside(double tight) {
+    if (bracket_.why != Verdict::kept_by_none || !(tight > 0.0) || !best_foothold_) return std::nullopt;
+    Problem problem = tried_;
+    problem.limits.*member_ = tight;
+    return least_kept_near(problem, name_, *best_foothold_, control_);
   }
 
   /// Just below the least bound that does a search may come to no end. Whether one a little farther below tells that it is the
@@ -289,14 +342,13 @@ class LeastBound {
     constexpr double kBoldest = 0.25;  // taste
     const double floor = bracket_.floor();
     const auto is_open = [&](double next) { return next > floor && next < bracket_.loose; };
-    if (price_ > 0.0) {
-      const double tangent = newton_step(bound, excess_, price_);
-      const double next = std::max(tangent, kBoldest * bracket_.loose);
-      if (tangent > 0.0 && is_open(next)) return next;
-    }
+    const double tangent = price_ > 0.0 ? newton_step(bound, excess_, price_) : 0.0;
+    const double bold = tangent > 0.0 ? std::max(tangent, kBoldest * bracket_.loose) : 0.0;
     const double next = by_descent(bound, verdict);
-    if (is_open(next)) return next;
+    // What no track near the best one keeps is not worth a look for the speed that it would have.
+    if (is_open(next) && next >= bold) return next;
     step_ = 0.0;
+    if (is_open(bold)) return bold;
     return between(floor, bracket_.loose);
   }
 
@@ -306,17 +358,13 @@ class LeastBound {
     constexpr double kFirstStep = 1e-7;  // taste: a tenth of what such bounds are told to
     constexpr double kGrowth = 8.0;      // taste
     constexpr double kJustBelow = 0.9;   // taste: of the accuracy, so that the bracket closes
-    if (bracket_.why != Verdict::kept_by_none || !(bracket_.tight > 0.0) || verdict == Verdict::untold)
-      return 0.0;
-    if (verdict == Verdict::kept_by_none && step_ > 0.0) {
+    if (bracket_.why != Verdict::kept_by_none || !(bracket_.tight > 0.0)) return 0.0;
+    if (verdict != Verdict::does && step_ > 0.0) {
       // Its stations keep it, not what lies between them.
       step_ *= kGrowth;
       return bound * (1.0 + step_);
     }
-    if (!best_foothold_) return 0.0;
-    Problem problem = tried_;
-    problem.limits.*member_ = bracket_.tight;
-    const std::optional<LeastKept> least = least_kept_near(problem, name_, *best_foothold_, control_);
+    const std::optional<LeastKept> least = least_beside(bracket_.tight);
     const double below = bracket_.loose * (1.0 - kJustBelow * bracket_.accuracy());
     if (!least) return 0.0;
     if (verdict != Verdict::does || least->bound < below) {
@@ -348,6 +396,7 @@ class LeastBound {
       return false;
     }
     bracket_ = {std::min(bound, reached_by(best_.centerline)), 0.0, Verdict::too_slow, {}};
+    left_beside_.reset();
     if (!settled_)
       close(price_ > 0.0 ? std::min(newton_step(bound, excess_, price_), 0.99 * bound) : 0.9 * bound);
     return true;
@@ -422,6 +471,8 @@ class LeastBound {
     } else {
       report.active = holding_up();
     }
+    if (left_beside_ && report.finer_mesh_wins)
+      report.finer_mesh_wins = std::max(*report.finer_mesh_wins, *left_beside_);
     report.checks = check_limits(asked_, best_.centerline);
     if (!settled_) {
       report.status = OptimizeStatus::feasible_not_converged;
@@ -429,6 +480,7 @@ class LeastBound {
     } else if (report.status == OptimizeStatus::optimal) {
       report.message = is_as_good_as_none(bracket_.loose)
                            ? "every limit holds on a track of one curvature, which has none that could change"
+                       : left_beside_ ? "every limit holds, and no neighbouring track keeps a tighter bound"
                        : bracket_.why == Verdict::kept_by_none
                            ? "every limit holds, and no track keeps a tighter bound"
                            : "every limit holds, and a tighter bound keeps the exit speed from being reached";
@@ -440,11 +492,8 @@ class LeastBound {
   [[nodiscard]] std::vector<ActiveLimit> holding_up() {
     constexpr double kSame =
         1e-3;  // accuracy: what a descent on one mesh may miss the bound by, its prices hold
-    const bool is_held_up = settled_ && bracket_.why == Verdict::kept_by_none && bracket_.tight > 0.0;
-    if (!is_held_up || !best_foothold_ || outlay_.ends()) return {};
-    Problem problem = tried_;
-    problem.limits.*member_ = bracket_.tight * (1.0 - kSame);
-    std::optional<LeastKept> least = least_kept_near(problem, name_, *best_foothold_, control_);
+    if (!settled_ || outlay_.ends()) return {};
+    std::optional<LeastKept> least = least_beside(bracket_.tight * (1.0 - kSame));
     if (!least || std::fabs(least->bound / bracket_.loose - 1.0) > kSame) return {};
     return std::move(least->holding);
   }
@@ -479,6 +528,8 @@ class LeastBound {
   bool settled_ = false;                   ///< nothing tighter does
   double excess_ = 0.0;                    ///< of the exit speed, at the bound looked at last
   double price_ = 0.0;                     ///< of that bound, in speed
+  /// What a descent from the best track wins still, as a share of its bound; none where searches told that a tighter one is too tight.
+  std::optional<double> left_beside_;
   double step_ = 0.0;  ///< by how much the last bound lay above what a descent came to, of itself
   int searches_ = 0;
 };

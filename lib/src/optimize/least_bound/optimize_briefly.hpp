@@ -21,4 +21,11 @@ struct BriefEnd {
 [[nodiscard]] BriefEnd optimize_briefly(const Problem& problem, const OptimizeOptions& options,
                                         const std::stop_token& stop, const Progress& progress);
 
+/// The same from a track that all but keeps the limits, and from nowhere else: what it ends on is an optimum beside that track, or
+/// none is found.
+/// @param foothold  of a search of a problem with the same ways past its keep-outs
+[[nodiscard]] BriefEnd optimize_from(const Problem& problem, const Foothold& foothold,
+                                     const OptimizeOptions& options, const std::stop_token& stop,
+                                     const Progress& progress);
+
 }  // namespace glissade::optimizer
