@@ -490,8 +490,7 @@ class LeastBound {
 
   /// Where no track keeps a tighter bound, however slow it is: the limits that keep it from being tighter.
   [[nodiscard]] std::vector<ActiveLimit> holding_up() {
-    constexpr double kSame =
-        1e-3;  // accuracy: what a descent on one mesh may miss the bound by, its prices hold
+    constexpr double kSame = 1e-3;  // taste: by so much a descent on one mesh may miss the bound
     if (!settled_ || outlay_.ends()) return {};
     std::optional<LeastKept> least = least_beside(bracket_.tight * (1.0 - kSame));
     if (!least || std::fabs(least->bound / bracket_.loose - 1.0) > kSame) return {};
