@@ -23,7 +23,7 @@ namespace glissade::math {
 inline constexpr double kMathAccuracyUlp = 1.0;
 /// The same for hypot() of two sides (the three roundings of the sum of squares count by half).
 inline constexpr double kHypotAccuracyUlp = 1.25;
-/// The powers that pow() surely tells: the largest double less two millionths of it.
+/// The powers that pow() surely tells: the largest double less seven millionths of it.
 inline constexpr double kLargestPower = 1.79768e308;
 
 [[nodiscard]] double sin(double angle);
