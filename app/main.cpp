@@ -46,9 +46,11 @@ int main(int argc, char** argv) {
   } catch (const glissade::Interrupted& error) {
     return failed(error, ExitCode::interrupted);
   } catch (const std::bad_alloc&) {
-    return failed(glissade::InputError(
-                      {"", "the memory of this machine does not suffice", "", "a larger mesh.tolerance"}),
-                  ExitCode::usage);
+    return failed(
+        glissade::InputError(
+            {"", "the memory of this machine does not suffice", "",
+             "a larger mesh.tolerance where there is a mesh; less to read or to vary where there is none"}),
+        ExitCode::usage);
   } catch (const std::exception& error) {
     return defect(error.what());
   }

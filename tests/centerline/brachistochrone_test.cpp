@@ -180,6 +180,20 @@ TEST_CASE("fastest track: every faulty argument is named with its value") {
   CHECK_THAT(solve({1.0, -2.0}, 9.81), Catch::Matchers::StartsWith("drop: -2 m is not"));
   CHECK_THAT(solve({1.0, 1.0}, 0.0), Catch::Matchers::StartsWith("gravity: 0 m/s^2 is not"));
   CHECK_THAT(solve({1.0, 1.0}, nan), Catch::Matchers::StartsWith("gravity: nan m/s^2 is not"));
+  CHECK_THAT(solve({1.0, 1.0}, 1e308), Catch::Matchers::StartsWith("gravity: 1e+308 m/s^2 is out of range"));
+  // Within the bounds all ends are the same track in other units.
+  const CoulombSolution unit = solve_coulomb_brachistochrone({1.0, 1.0}, friction, 1.0);
+  for (const double gravity : {kWeakestGravity, 1.0, kStrongestGravity}) {
+    for (const double size : {kShortestWay, 1.0, kLongestWay}) {
+      CAPTURE(gravity, size);
+      const CoulombSolution found = solve_coulomb_brachistochrone({size, size}, friction, gravity);
+      const double time = std::sqrt(size) / std::sqrt(gravity);
+      CHECK(found.travel_time / time == Approx(unit.travel_time).epsilon(1e-12));
+      CHECK(found.straight_time / time == Approx(unit.straight_time).epsilon(1e-12));
+      CHECK(found.exit_speed / (std::sqrt(size) * std::sqrt(gravity)) ==
+            Approx(unit.exit_speed).epsilon(1e-12));
+    }
+  }
   const CoulombBrachistochrone track({10.0, 5.0}, friction);
   const auto at = [&](double s) { return message_of<InputError>([&] { (void)track.at(s); }); };
   CHECK_THAT(at(-1.0), Catch::Matchers::Contains("-1 m"));

@@ -46,6 +46,9 @@ TEST_CASE("straight line: refuses endpoints that span no track") {
   CHECK_THROWS_WITH(StraightLine(Endpoints{kInfinity, 1.0}),
                     Catch::Matchers::Contains("run inf m") && Catch::Matchers::Contains("not finite"));
   CHECK_THROWS_AS(StraightLine(Endpoints{std::nan(""), 1.0}), InputError);
+  CHECK_THROWS_WITH(
+      StraightLine(Endpoints{1e308, 1.7e308}),
+      Catch::Matchers::Contains("drop 1.7e+308 m are too far apart") && !Catch::Matchers::Contains("finite"));
 }
 
 TEST_CASE("a centerline refuses arc lengths that are not on it") {

@@ -113,6 +113,27 @@ TEST_CASE("clothoid spline: a circle closes, however often it is run through") {
   }
 }
 
+TEST_CASE("clothoid spline: however much it turns, what follows leads on as closely as is stated") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 200; ++i) {
+    const double turning = i == 0 ? 999'999.7 : std::exp(random.between(0.0, std::log(1e6)));
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    const double straight = random.between(0.5, 20.0);
+    CAPTURE(turning, sign, straight);
+    const ClothoidSpline spline(Angle::from_radians(0.3),
+                                {{1.0, sign * turning, sign * turning}, {straight, 0.0, 0.0}});
+    const Precise kappa = sign * turning;
+    const Precise zeta = Precise(0.3) - kappa;
+    const Precise x = (sin(Precise(0.3)) - sin(zeta)) / kappa + straight * cos(zeta);
+    const Precise drop = (cos(zeta) - cos(Precise(0.3))) / kappa + straight * sin(zeta);
+    const CenterlinePoint finish = spline.at(spline.length());
+    const double error =
+        std::hypot((finish.x - x).convert_to<double>(), (finish.drop - drop).convert_to<double>());
+    CHECK(error <= clothoid_accuracy(turning) * spline.length());
+  }
+}
+
 TEST_CASE("clothoid spline: position, slope angle and curvature belong together everywhere") {
   const ClothoidSpline spline(
       Angle::from_radians(1.2),
@@ -168,6 +189,11 @@ TEST_CASE("clothoid spline: says which segment is unusable and why") {
                     Catch::Matchers::Contains("segments[0]: curvature: nan 1/m is not finite"));
   CHECK_THROWS_WITH(ClothoidSpline(level, {{1.0, 0.0, 1e9}}),
                     Catch::Matchers::Contains("turns by up to 1000000000 rad"));
+  CHECK_THROWS_WITH(ClothoidSpline(level, {{1.0, 0.0, 1.0001e6}}),
+                    Catch::Matchers::Contains("turns by up to 1000100 rad") &&
+                        Catch::Matchers::Contains("may turn by 1000000 rad in all"));
+  CHECK_THROWS_WITH(ClothoidSpline(level, {{1.0, 0.0, 5e5}, {1.0, 5.00001e5, 0.0}}),
+                    Catch::Matchers::Contains("they turn by up to 1000001 rad in all"));
   CHECK_THROWS_WITH(
       ClothoidSpline(Angle::from_radians(std::numeric_limits<double>::infinity()), {{1.0, 0.0, 0.0}}),
       Catch::Matchers::Contains("entry slope angle: inf deg is not finite"));

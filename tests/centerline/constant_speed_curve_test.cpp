@@ -204,6 +204,10 @@ TEST_CASE("constant-speed curve: input that leaves it undefined is refused with 
   }
   CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 9.81, HUGE_VAL),
                     Catch::Matchers::Contains("p: inf m^2/s^2 is not positive and finite"));
+  CHECK_THROWS_WITH(
+      ConstantSpeedCurve::from_entry_slope(Angle::from_degrees(90.0001), 5.0, friction, 9.81, 127),
+      Catch::Matchers::Contains("entry_slope_angle: 90.0001 deg overhangs") &&
+          Catch::Matchers::Contains("between -90 and 90 deg"));
   CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 0, 100),
                     Catch::Matchers::Contains("gravity: 0 m/s^2 is not positive"));
   CHECK_THROWS_WITH(ConstantSpeedCurve({10, 5}, friction, 9.81, 127).speed(1, -2),

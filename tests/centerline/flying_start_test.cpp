@@ -626,6 +626,16 @@ TEST_CASE("reach theorem: what is out of its domain is refused") {
     CHECK_THROWS_AS(can_arrive({3.0, 2.0}, friction, speed), InputError);
   }
   CHECK_THROWS_AS(least_entry_speed({std::nan(""), 2.0}, friction), InputError);
+  for (const double gravity : {1e308, 1e-101}) {
+    CHECK_THROWS_WITH(
+        least_entry_speed({30.0, 2.0}, friction, gravity),
+        contains_text(" m/s^2 is out of range") && contains_text("Between 1e-100 and 1e+100 m/s^2"));
+  }
+  // Ways scale as squares of speeds, up to the largest numbers.
+  const double unit = least_entry_speed({1.0, -1.0}, friction);
+  for (const double size : {1e300, 1e308}) {
+    CHECK(least_entry_speed({size, -size}, friction) / std::sqrt(size) == Approx(unit).epsilon(1e-14));
+  }
   CHECK_THROWS_AS(least_drop(HUGE_VAL, friction, 1.0), InputError);
   CHECK_THROWS_AS(can_arrive({3.0, std::nan("")}, friction, 1.0), InputError);
   CHECK(least_drop(3.0, friction, 1e155) == -HUGE_VAL);

@@ -181,6 +181,19 @@ TEST_CASE("the explicit height of a cubic transition over its run is the norm's,
   }
 }
 
+TEST_CASE("a cubic bend of any size within its bounds is the same bend") {
+  for (const double radius : {kShortestWay, 1.0, kLongestWay}) {
+    const CubicBend bend(Angle::from_degrees(20.0), radius);
+    CHECK(bend.length() / radius ==
+          Approx(CubicBend(Angle::from_degrees(20.0), 1.0).length()).epsilon(1e-14));
+    CHECK(bend.at(bend.length()).along / radius == Approx(bend.reach() / radius).epsilon(1e-13));
+  }
+  for (const double radius : {1e308, 1e-201}) {
+    CHECK_THROWS_WITH(CubicBend(Angle::from_degrees(20.0), radius),
+                      Contains(" m, is out of range") && Contains("between 1e-200 m and 1e+200 m"));
+  }
+}
+
 TEST_CASE("what makes no in-run is refused with the value, the bound and a way out") {
   const auto with = [](auto change) {
     InRunShape shape = garmisch();

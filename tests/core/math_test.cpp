@@ -86,6 +86,75 @@ TEST_CASE("hyperbolic functions keep their accuracy up to where their value ends
   CHECK(std::isnan(math::sinh(std::numeric_limits<double>::quiet_NaN())));
 }
 
+TEST_CASE(
+    "exponentials keep their accuracy up to where their value ends to be a number, one by one and many") {
+  constexpr double kLast = 709.78271289338397;  // ln of the largest double, rounded down
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK_FUNCTION(exp, 709.7827, kLast);
+  CHECK_FUNCTION(expm1, 709.7827, kLast);
+  CHECK_FUNCTION(exp, -745.13, -708.0);
+  for (const double value : {std::nextafter(kLast, 1000.0), 709.8, 711.0, 1e300, infinity}) {
+    CHECK(math::exp(value) == infinity);
+    CHECK(math::expm1(value) == infinity);
+  }
+  CHECK(std::isfinite(math::exp(kLast)));
+  testing::Random random = testing::seeded_random();
+  std::vector<double> values(1000);
+  for (double& value : values) value = random.between(709.782711, 709.782713);
+  std::vector<double> results(values.size());
+  math::exponentials(values, results);
+  for (std::size_t i = 0; i < values.size(); ++i) CHECK(results[i] == math::exp(values[i]));
+  // The same of powers, as far as they are stated to be told.
+  for (int i = 0; i < 1000; ++i) {
+    const double base = std::exp(random.between(0.01, 600.0));
+    const double exponent =
+        std::log(math::kLargestPower) / std::log(base) * random.between(0.99, 1.0 - 1e-12);
+    CAPTURE(base, exponent);
+    CHECK(error_in_ulp(math::pow(base, exponent), std::pow(static_cast<long double>(base), exponent)) <=
+          kBound);
+  }
+}
+
+TEST_CASE("the cosine of turns is that of what is left of whole ones, however many they are") {
+  testing::Random random = testing::seeded_random();
+  for (const double whole : {0.0, 2.0, 0x1p20, 0x1p21, 250'000'000.0, 1e9, 0x1p40, 0x1p48}) {
+    for (int i = 0; i < 100; ++i) {
+      const double part = std::floor(random.between(0.0, 32.0)) / 16.0;
+      CAPTURE(whole, part);
+      CHECK(math::cos_pi(whole + part) == math::cos_pi(part));
+      CHECK(math::cos_pi(-whole - part) == math::cos_pi(part));
+    }
+  }
+  CHECK(math::cos_pi(250'000'000.5) == 0.0);
+  CHECK(math::cos_pi(1e9 + 1.0) == -1.0);
+  CHECK(math::cos_pi(0x1p53 - 1.0) == -1.0);
+  CHECK(math::cos_pi(1e300) == 1.0);
+  CHECK(std::isnan(math::cos_pi(std::numeric_limits<double>::infinity())));
+}
+
+TEST_CASE("hypotenuses and angles so small that they lose digits are right to the last one left") {
+  testing::Random random = testing::seeded_random();
+  double largest_hypot = 0.0;
+  double largest_atan2 = 0.0;
+  for (int i = 0; i < kTries; ++i) {
+    const double size = std::ldexp(1.0, static_cast<int>(random.between(-1074.0, -480.0)));
+    const double x = size * random.between(0.0, 3.0);
+    const double y = size * random.between(0.0, 3.0);
+    largest_hypot =
+        std::max(largest_hypot, error_in_ulp(math::hypot(x, y), std::hypot(static_cast<long double>(x), y)));
+    const double beside = random.between(1.0, 1e5);
+    const double above =
+        std::ldexp(random.between(1.0, 2.0), static_cast<int>(random.between(-1074.0, -960.0)));
+    largest_atan2 = std::max(
+        largest_atan2,
+        error_in_ulp(math::atan2(above, beside), std::atan2(static_cast<long double>(above), beside)));
+  }
+  CHECK(largest_hypot <= math::kHypotAccuracyUlp);
+  CHECK(largest_atan2 <= kBound);
+  CHECK(math::atan2(0.0, 0.0) == 0.0);
+  CHECK(math::atan2(1e-310, std::numeric_limits<double>::infinity()) == 0.0);
+}
+
 TEST_CASE("elementary functions of two numbers keep the accuracy that is stated") {
   testing::Random random = testing::seeded_random();
   double largest_atan2 = 0.0;

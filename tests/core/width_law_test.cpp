@@ -4,6 +4,7 @@
 
 #include "support/catch.hpp"
 
+#include <utility>
 #include <vector>
 
 using namespace glissade;
@@ -30,6 +31,19 @@ TEST_CASE("width law: a number is a constant law, whatever place it was said at"
   CHECK(law == WidthLaw(std::vector<WidthAt>{{3.0, 0.4}}));
   CHECK(WidthLaw(std::vector<WidthAt>{{3.0, 0.4}}).last_place() == 3.0);
   CHECK(WidthLaw(std::vector<WidthAt>{{1.0, 0.4}, {3.0, 0.4}}).last_place() == 3.0);
+}
+
+TEST_CASE("width law: a regular value, also when something was moved from it") {
+  WidthLaw law(std::vector<WidthAt>{{1.0, 0.6}, {3.0, 0.4}});
+  const WidthLaw copy = law;
+  const WidthLaw moved = std::move(law);
+  CHECK(moved == copy);
+  // NOLINTBEGIN(bugprone-use-after-move): what this is about
+  CHECK(law.at(2.0) == law.at(2.0));
+  CHECK(law.narrowest() <= law.widest());
+  law = WidthLaw(0.3);
+  CHECK(law.at(2.0) == 0.3);
+  // NOLINTEND(bugprone-use-after-move)
 }
 
 TEST_CASE("width law: places ascend, and there is one at least") {

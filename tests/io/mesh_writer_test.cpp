@@ -1,5 +1,6 @@
 #include "glissade/core/error.hpp"
 #include "glissade/io/mesh_file.hpp"
+#include "glissade/io/scad_file.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "support/catch.hpp"
@@ -11,7 +12,10 @@
 #include <bit>
 #include <clocale>
 #include <cmath>
+#include <ctime>
+#include <functional>
 #include <limits>
+#include <stop_token>
 
 #include <sched.h>
 
@@ -288,13 +292,47 @@ TEST_CASE("a mesh that no file can hold is refused and leaves nothing behind") {
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THAT(refused({{{0, 0, 0}}, {{0, 0, 1}}}, MeshFormat::off), Contains("vertex 1 does not exist"));
-  CHECK_THAT(refused({{{0, nan, 0}}, {}}, MeshFormat::stl_ascii), Contains("must be a finite number"));
-  CHECK_THAT(refused({{{0, nan, 0}}, {}}, MeshFormat::stl_binary), Contains("must be a finite number"));
-  CHECK_THAT(refused({{{1e36, 0, 0}}, {}}, MeshFormat::stl_binary), Contains("1e+39 mm does not fit"));
+  CHECK_THAT(refused({{{0, nan, 0}}, {{0, 0, 0}}}, MeshFormat::stl_ascii),
+             Contains("must be a finite number"));
+  CHECK_THAT(refused({{{0, nan, 0}}, {{0, 0, 0}}}, MeshFormat::stl_binary),
+             Contains("must be a finite number"));
+  CHECK_THAT(refused({{{1e36, 0, 0}}, {{0, 0, 0}}}, MeshFormat::stl_binary),
+             Contains("1e+39 mm does not fit"));
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::off}) {
+    CHECK_THAT(refused({{{0, 0, 0}}, {}}, format), Contains("the mesh has no facets"));
+  }
   TriangleMesh late = as_written(torus(0.3, 0.1, 307, 101), MeshFormat::stl_binary, LengthUnit::millimetre);
   late.triangles[60'000][1] = 1'000'000;
   CHECK_THAT(refused(late, MeshFormat::stl_binary),
              Contains("triangle 60000 of the mesh: vertex 1000000 does not exist"));
+  CHECK(dir.names().empty());
+}
+
+TEST_CASE("writing that was asked to end ends before it rounds, and leaves nothing behind") {
+  // Rounding all of it, and looking at it, takes a hundred times what may pass.
+  const TriangleMesh mesh = torus(0.3, 0.1, 2000, 500);
+  const TempDir dir;
+  const std::stop_source source = [] {
+    std::stop_source asked;
+    asked.request_stop();
+    return asked;
+  }();
+  const auto seconds_of = [](const std::function<void()>& work) {
+    const std::clock_t before = std::clock();
+    CHECK_THROWS_AS(work(), Interrupted);
+    return static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+  };
+  constexpr double kMost = 0.02;  // budget: "some milliseconds", on a machine that others use [s]
+  for (const MeshFormat format : {MeshFormat::stl_binary, MeshFormat::stl_ascii, MeshFormat::off}) {
+    MeshFileOptions options;
+    options.stop = source.get_token();
+    CHECK(seconds_of([&] { write_mesh(dir / "mesh", format, mesh, options); }) < kMost);
+    CHECK(seconds_of([&] { (void)as_written(mesh, format, LengthUnit::millimetre, source.get_token()); }) <
+          kMost);
+  }
+  ScadFileOptions options;
+  options.stop = source.get_token();
+  CHECK(seconds_of([&] { write_scad(dir / "mesh", mesh, {{0, 0, 0}, {1, 0, 0}}, options); }) < kMost);
   CHECK(dir.names().empty());
 }
 

@@ -359,6 +359,30 @@ TEST_CASE("Motion says which number of the body it cannot use") {
   CHECK_NOTHROW(Motion(ramp, patchy));
 }
 
+TEST_CASE("Motion rides whatever its bounds allow, and says which number leaves the range of numbers") {
+  using Catch::Matchers::Contains;
+  const auto ramp = std::make_shared<const StraightLine>(Endpoints{3.0, 4.0});
+  CHECK_THROWS_WITH(Motion(ramp, body(0.2, 1e200)),
+                    Contains("entry_speed: 1e+200 m/s is out of range") && Contains("Up to 1e+100 m/s"));
+  CHECK_THROWS_WITH(Motion(ramp, body(0.2, 0.0), 1e308), Contains("gravity: 1e+308 m/s^2 is out of range"));
+  CHECK_THROWS_WITH(Motion(ramp, body(0.2, 0.0), 1e-101), Contains("Between 1e-100 and 1e+100 m/s^2"));
+  CHECK_THROWS_WITH(Motion(std::make_shared<const StraightLine>(Endpoints{0.0, 1e307}), body(0.2, 0.0)),
+                    Contains("the track is 1e+307 m long, at a gravity of 9.81 m/s^2"));
+  // From rest, and at no gravity worth the name, the laws of a straight ramp.
+  for (const double gravity : {kWeakestGravity, 1.0, kStrongestGravity}) {
+    for (const double size : {kShortestWay, 1.0, kLongestWay}) {
+      CAPTURE(gravity, size);
+      const auto line = std::make_shared<const StraightLine>(Endpoints{0.6 * size, 0.8 * size});
+      const Motion ride(line, body(0.2, 0.0), gravity);
+      const double pull = gravity * (0.8 - 0.2 * 0.6);
+      CHECK(ride.exit_speed() == Approx(std::sqrt(2.0 * pull) * std::sqrt(size)).epsilon(1e-12));
+      CHECK(ride.travel_time() == Approx(std::sqrt(2.0 / pull) * std::sqrt(size)).epsilon(1e-12));
+    }
+  }
+  const Motion fast(ramp, body(0.2, kFastestEntry));
+  CHECK(fast.exit_speed() == Approx(kFastestEntry).epsilon(1e-12));
+}
+
 TEST_CASE("what is looked for along a ride is a function: none is refused") {
   const Motion ride(std::make_shared<StraightLine>(Endpoints{3.0, 2.0}), Body{});
   CHECK_THROWS_WITH(ride.highest(Motion::Quantity()), Catch::Matchers::Contains("quantity: there is none"));

@@ -286,6 +286,17 @@ TEST_CASE("next to the reach limit a search says that it cannot tell tracks apar
   CHECK(exact.report.travel_time == Approx(*exact.report.unlimited_travel_time));
 }
 
+TEST_CASE("a time budget that is none is told with what it has to be") {
+  Problem problem;
+  problem.endpoints = {10.0, 5.0};
+  for (const double budget : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
+    OptimizeOptions options;
+    options.time_budget = budget;
+    CHECK_THROWS_WITH(optimize(problem, options), Catch::Matchers::Contains("time_budget: ") &&
+                                                      Catch::Matchers::Contains("is positive and finite"));
+  }
+}
+
 TEST_CASE(
     "a budget that runs out before the search comes to a track ends with a simple one, where one will do") {
   OptimizeOptions hurried;

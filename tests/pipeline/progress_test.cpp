@@ -1,6 +1,8 @@
+#include "glissade/core/error.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
 
+#include "pipeline/fabricate.hpp"
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
@@ -68,6 +70,15 @@ TEST_CASE("a request to stop is met by a search, and ends a build that is past i
     CHECK(std::string(error.what()).find("interrupted after the search") != std::string::npos);
   }
   CHECK(std::filesystem::is_empty(other.path()));
+}
+
+TEST_CASE("a request to stop ends the printing of parts") {
+  const Design design = read_design(designs_path("marble_run_printed.yaml"));
+  const Track track = solve(design);
+  std::stop_source source;
+  CHECK_NOTHROW(pipeline::fabricate(design, track, track.placement, source.get_token()));
+  source.request_stop();
+  CHECK_THROWS_AS(pipeline::fabricate(design, track, track.placement, source.get_token()), Interrupted);
 }
 
 TEST_CASE("a request to stop that comes in the search that a result is held against is told of the result") {

@@ -298,6 +298,35 @@ TEST_CASE("cross-section: sizes that make no section are refused with their valu
              Catch::Matchers::StartsWith("thickness: inf"));
 }
 
+TEST_CASE("cross-section: sizes whose area would be no number are refused, all others have one") {
+  using Catch::Matchers::Contains;
+  CHECK_THROWS_WITH(CrossSection::pipe(1e300, 1e200), Contains("inner_diameter: 1e+300 m is out of range") &&
+                                                          Contains("1e-100 m and 1e+100 m"));
+  CHECK_THROWS_WITH(CrossSection::pipe(1.0, 1e-101), Contains("thickness: 1e-101 m is out of range"));
+  CHECK_THROWS_WITH(CrossSection::polygon({{-1e101, 0.0}, {0.0, -1.0}, {1e101, 0.0}}),
+                    Contains("is not a point") && Contains("1e+100 m at most"));
+  for (const double size : {1e-99, 1.0, 1e99}) {
+    const CrossSection pipe = CrossSection::pipe(size, 0.1 * size);
+    CHECK(pipe.area() / (size * size) == Approx(0.11 * kPi).epsilon(1e-14));
+    CHECK(std::isfinite(pipe.first_moment()));
+    CHECK(pipe.first_moment() != 0.0);
+  }
+}
+
+TEST_CASE("cross-section: a chord tolerance is above zero") {
+  using Catch::Matchers::Contains;
+  for (const CrossSection& section : {CrossSection::pipe(0.1, 0.01), CrossSection::slab(0.4, 0.1)}) {
+    for (const double tolerance : {0.0, -1.0, std::nan("")}) {
+      CHECK_THROWS_WITH(section.outline(tolerance),
+                        Contains("chord_tolerance: ") && Contains(" m is not above zero"));
+      CHECK_THROWS_AS(section.vertex_count(tolerance), InputError);
+      CHECK_THROWS_AS(section.chord_error(tolerance), InputError);
+    }
+    CHECK_NOTHROW(section.outline(std::numeric_limits<double>::infinity()));
+  }
+  CHECK_THROWS_AS(CrossSection::pipe(0.1, 0.01).bore(0.0), InputError);
+}
+
 TEST_CASE("cross-section: outlines that are not simple are refused, naming the sides") {
   CHECK_THAT(message_of([] {
                return CrossSection::polygon({{0, 0}, {1, 0}});

@@ -479,6 +479,8 @@ TEST_CASE("sweep: options outside their bounds are refused") {
   for (const double tolerance :
        {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     CHECK_THAT(message_of([&] { return build(tolerance, 1000000); }), contains_text("is not a distance"));
+    CHECK_THAT(message_of([&] { return obstacle_to_sweep(track, section, tolerance); }),
+               contains_text("is not a distance"));
   }
   CHECK_THAT(message_of([&] { return build(1e-3, 999); }), contains_text("max_triangles: 999 is too few"));
   CHECK_THAT(message_of([&] { return build(1e-12, 1000000); }),

@@ -1,9 +1,11 @@
 #include "glissade/study/distribution.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 
 #include "study/sobol.hpp"
 #include "support/catch.hpp"
+#include "support/random.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +73,50 @@ TEST_CASE("a truncated normal distribution keeps its bounds and its shares, far 
   }
 }
 
+TEST_CASE("quantiles of a truncated normal distribution are those of its mirror image, in both tails") {
+  const auto law = [](double low, double high) {
+    return "truncated-normal(0,1," + exact_text(low) + "," + exact_text(high) + ")";
+  };
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 300; ++i) {
+    const double low = random.between(-29.0, 29.0);
+    const double high = low + std::exp(random.between(-20.0, 3.0));
+    // Digits that both tails keep.
+    const double p =
+        std::ldexp(std::floor(random.between(1.0, 1024.0)), -static_cast<int>(random.between(11.0, 50.0)));
+    CAPTURE(low, high, p);
+    const double width = std::min(high - low, 1.0);
+    const double rounding = 3e-16 * std::max(std::fabs(low), std::fabs(high));
+    CHECK(std::fabs(quantile(law(low, high), 1.0 - p) + quantile(law(-high, -low), p)) <=
+          1e-13 * width + rounding);
+  }
+  // bisection of erfc
+  CHECK(std::fabs(quantile(law(-0.5, 30.0), 1.0 - 1e-9) - 6.057454444532) <= 1e-11);
+}
+
+TEST_CASE(
+    "between bounds that are near to each other a normal distribution is a line, and its slope bends it") {
+  for (const double low : {-25.0, -1.0, -5e-7, 0.0, 2.0, 29.0}) {
+    for (const double width : {1e-10, 1e-8, 1e-6, 0.00999, 0.0101}) {
+      const double high = low + width;
+      const double exact_width = high - low;
+      const std::string law = "truncated-normal(0,1," + exact_text(low) + "," + exact_text(high) + ")";
+      for (const double p : {1e-6, 0.25, 0.5, 0.9}) {
+        CAPTURE(law, p);
+        // The density exp(-low t) over so short a way has a closed form.
+        const double middle = low + 0.5 * exact_width;
+        const double steep = middle * exact_width;
+        const double share = std::fabs(steep) < 1e-7 ? p * (1.0 + 0.5 * steep * (p - 1.0))
+                                                     : -std::log1p(p * std::expm1(-steep)) / steep;
+        const double square = exact_width * exact_width;  // what t^2/2 beside it bends
+        CHECK(std::fabs(quantile(law, p) - (low + exact_width * share)) <=
+              1e-13 * exact_width + exact_width * 0.1 * square + 5e-16 * std::fabs(low));
+      }
+    }
+  }
+}
+
 TEST_CASE("a distribution reads back from its own text") {
   for (const char* law :
        {"uniform(15deg,19deg)", "normal(17deg,1.5deg)", "truncated-normal(17deg,1.5deg,14deg,20deg)",
@@ -130,6 +176,28 @@ TEST_CASE("samples lie within the cube, depend on the seed and on nothing else")
     CHECK(same == 0);
     // Standard error of the mean of 5000 random numbers: 0.0041.
     for (const double sum : sums) CHECK(std::fabs(sum / 5000.0 - 0.5) < 5 * 0.0041);
+  }
+}
+
+TEST_CASE("samples beyond what is stated of the cube are refused with the bound") {
+  for (const Sampling sampling : {Sampling::random, Sampling::latin_hypercube, Sampling::sobol}) {
+    const auto refused = [&](const UnitCube& cube, std::uint64_t sample, const std::string& message) {
+      CHECK_THROWS_AS(cube.at(sample), InputError);
+      CHECK_THROWS_WITH(cube.at(sample), Contains(message));
+    };
+    constexpr std::uint64_t kMost = UnitCube::kMostSamples;
+    refused({sampling, 0, 2, 1}, 0, "samples: 0 is not within 1 to 9007199254740992");
+    refused({sampling, std::uint64_t{1} << 63U, 2, 1}, 0, "samples: 9223372036854775808 is not within 1 to");
+    refused({sampling, kMost + 1, 2, 1}, 0, "samples: 9007199254740993 is not within 1 to");
+    refused({sampling, 5, 2, 1}, 5, "sample: 5 is not within 0 to 4");
+    refused({sampling, 5, 65, 1}, 0, "dimensions: 65 is not within 1 to 64");
+    refused({sampling, 5, 0, 1}, 0, "dimensions: 0 is not within 1 to 64");
+    for (const std::uint64_t count : {std::uint64_t{1}, std::uint64_t{5}, kMost - 1, kMost}) {
+      for (const double coordinate : UnitCube{sampling, count, 64, 1}.at(count - 1)) {
+        CHECK(coordinate > 0.0);
+        CHECK(coordinate < 1.0);
+      }
+    }
   }
 }
 

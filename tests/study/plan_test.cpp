@@ -5,6 +5,7 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -37,6 +38,36 @@ TEST_CASE("a grid has both of its ends and equal steps between them") {
   CHECK(values_of(vary("a=5:1:5")) == std::vector<std::string>{"5", "4", "3", "2", "1"});
   CHECK(values_of(vary("a=7mm:9mm:1")) == std::vector<std::string>{"7mm"});
   CHECK(vary("body.friction_angle=10deg:25deg:4").inputs[0].column() == "body.friction_angle_deg");
+}
+
+TEST_CASE("a grid of as many values as a plan may have takes no more memory than one of two") {
+  const Factor factor = vary("a=10deg:25deg:1000000000");
+  REQUIRE(factor.size == 1'000'000'000);
+  CHECK(factor.values.empty());
+  CHECK(factor.at(0) == std::vector<std::string>{"10deg"});
+  CHECK(factor.at(999'999'999) == std::vector<std::string>{"25deg"});
+  CHECK_THROWS_AS(factor.at(1'000'000'000), InternalError);
+  const Plan plan({factor});
+  CHECK(plan.point(333'333'333).at(0).value == factor.at(333'333'333).at(0));
+}
+
+TEST_CASE("the values of a grid ascend from end to end, however far apart they are") {
+  for (const char* const ends :
+       {"1e308:-1e308", "-1e308:1.7e308", "1:1.0000000000000002", "0:1e-320", "3:8"}) {
+    for (const std::uint64_t count : {2U, 3U, 10U, 1000U}) {
+      const Factor factor = vary("a=" + std::string(ends) + ":" + std::to_string(count));
+      INFO(factor.text);
+      const Grid& grid = factor.grid.value();
+      const double sign = grid.to > grid.from ? 1.0 : -1.0;
+      for (std::uint64_t i = 0; i < count; ++i) {
+        REQUIRE(std::isfinite(grid.at(i)));
+        if (i > 0) REQUIRE(sign * grid.at(i) >= sign * grid.at(i - 1));
+      }
+      CHECK(grid.at(0) == grid.from);
+      CHECK(grid.at(count - 1) == grid.to);
+    }
+  }
+  CHECK(values_of(vary("a=1e308:-1e308:3")) == std::vector<std::string>{"1e+308", "0", "-1e+308"});
 }
 
 TEST_CASE("a list takes values as they are, with commas inside brackets") {

@@ -110,6 +110,19 @@ TEST_CASE("a stream that lands on its track rides on with what the impact leaves
     CHECK(most.angle().radians() == Approx(body.friction.angle().radians()).epsilon(1e-9));
   }
   CHECK_FALSE(most_friction_of_impact(0.3, Angle::from_degrees(80.0)));
+  // The flatter the impact, the more friction leaves the share; along the floor, every friction does.
+  Friction least;
+  for (double theta = 1.2; theta > 1e-20; theta *= 0.3) {
+    const std::optional<Friction> most = most_friction_of_impact(0.3, Angle::from_radians(theta));
+    REQUIRE(most);
+    CHECK(*most >= least);
+    CHECK_NOTHROW(Friction::from_angle(most->angle()));
+    least = *most;
+  }
+  for (const double share : {0.3, 1.0}) {
+    CHECK(most_friction_of_impact(share, Angle{}).value() >= least);
+    CHECK(most_friction_of_impact(share, Angle{}).value().angle().degrees() > 89.999);
+  }
   // theta + phi beyond 90 deg: it stands where it lands.
   body.landing = Landing{4.0, Angle::from_degrees(120.0)};
   body.friction = friction_of(30.0);

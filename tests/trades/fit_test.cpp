@@ -1,6 +1,7 @@
 #include "glissade/trades/ski_jump/fit.hpp"
 
 #include "glissade/centerline/in_run.hpp"
+#include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/pipeline/speeds.hpp"
@@ -86,6 +87,45 @@ TEST_CASE("friction and drag that made the speeds are found again") {
     CHECK_FALSE(held.correlation.has_value());
     CHECK_FALSE(held.drag_uncertainty.has_value());
   }
+}
+
+TEST_CASE(
+    "friction that nearly holds a body on its ramp is found from speeds that are exact, with drag and "
+    "without") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 40; ++i) {
+    // From so flat that what a fit begins with would hold the body, to walls.
+    const double slope = std::exp(random.between(std::log(0.005), std::log(4.0)));
+    const double mu = slope * (i < 5 ? 1.0 - std::pow(0.1, i) : random.between(0.0, 0.999));
+    const double drag = i % 2 == 0 ? 0.0 : random.between(0.0, 0.05);
+    CAPTURE(slope, mu, drag);
+    const Body body = skier(mu, drag);
+    const double run = 20.0 / std::sqrt(1.0 + slope * slope);
+    const auto ramp = std::make_shared<const StraightLine>(Endpoints{run, run * slope});
+    std::vector<SpeedReading> readings;
+    for (const double place : {10.0, 14.0, 19.0}) {
+      readings.push_back({"ramp", ramp, 0.0, place, Motion(ramp, body).at(place).speed});
+    }
+    const SpeedFit held = fit_speeds(readings, skier(0.0, 0.0), {{}, drag});
+    CHECK(std::fabs(held.friction - mu) < 1e-9 * (1.0 + slope));
+    CHECK(held.rms < 1e-8);
+    const SpeedFit both = fit_speeds(readings, skier(0.0, 0.0));
+    CHECK(std::fabs(both.friction - mu) < 1e-6 * (1.0 + slope));
+    CHECK(std::fabs(both.drag - drag) < 1e-6);
+    CHECK(both.rms < 1e-8);
+    const SpeedFit of_drag = fit_speeds(readings, skier(0.0, 0.0), {mu, {}});
+    CHECK(std::fabs(of_drag.drag - drag) < 1e-7);
+  }
+}
+
+TEST_CASE("a fit of bodies that nothing brings to where they were measured tells which, and of what") {
+  const auto hump = std::make_shared<const StraightLine>(Endpoints{10.0, 0.5});
+  const std::vector<SpeedReading> readings = {{"ramp", hump, 0.0, 8.0, 0.5}};
+  CHECK_THROWS_WITH(fit_speeds(readings, skier(0.0, 0.0), {0.06, {}}),
+                    Contains("ramp: with a friction coefficient of 0.06 and a drag of ") &&
+                        Contains("the body does not come to where its speed was measured") &&
+                        Contains("Try: less friction or drag; the place, the gate and the design ridden"));
 }
 
 TEST_CASE("the stated uncertainty is the scatter of fits to speeds with errors") {

@@ -241,6 +241,16 @@ TEST_CASE("what only a stream has is not asked of a body that is none") {
   point.entry_speed = 2.0;
   const Landing feed{3.5, Angle::from_degrees(20.0)};
   CHECK_THROWS_WITH(pass_hood(hood_of(1.0, 10.0, 80.0), feed, point, kGravity), Contains("no stream"));
+  for (const double speed : {0.0, -1.0, std::nan("")}) {
+    const Landing still{speed, feed.angle};
+    Body stream = point;
+    stream.law = std::make_shared<const BulkStream>(StreamShape{10.0, 1600.0, 0.5, 0.6});
+    CHECK_THROWS_WITH(pass_hood(hood_of(1.0, 10.0, 80.0), still, stream, kGravity),
+                      Contains("feed: ") && Contains(" m/s is not a finite speed above 0"));
+    stream.landing = still;
+    CHECK_THROWS_WITH(Motion(track, stream),
+                      Contains("landing: ") && Contains(" m/s is not a finite speed above 0"));
+  }
   CHECK_THROWS_WITH(HoodApproach(hood_of(1.0, 10.0, 80.0), feed, kGravity).landing(point),
                     Contains("no stream"));
   const Motion ride(track, point);

@@ -78,6 +78,11 @@ std::string segment_name(std::size_t index) {
   return "segments[" + std::to_string(index) + "]";
 }
 
+/// @return a turning that is too much, with the digits that tell
+std::string turning_text(double turning) {
+  return text_beyond(turning, {kMostTurning}, &rounded_text, 3) + " rad";
+}
+
 double turning_of(const ClothoidSegment& segment) {
   return segment.length * std::max(std::fabs(segment.entry_curvature), std::fabs(segment.exit_curvature));
 }
@@ -94,8 +99,7 @@ void require_usable(const ClothoidSegment& segment, std::size_t index) {
                       "Curvature is one over the radius; a straight has curvature 0.", ""});
   }
   if (turning_of(segment) > kMostTurning) {
-    throw InputError({segment_name(index),
-                      "the segment turns by up to " + rounded_text(turning_of(segment), 3) + " rad",
+    throw InputError({segment_name(index), "the segment turns by up to " + turning_text(turning_of(segment)),
                       "The segments of a track may turn by " + rounded_text(kMostTurning, 3) + " rad in all.",
                       "curvature in 1/m, not a radius"});
   }
@@ -121,7 +125,7 @@ void require_usable(Angle entry_slope_angle, const std::vector<ClothoidSegment>&
                       "Where a track ends follows from all that lies before.", "lengths in metres"});
   }
   if (turning > kMostTurning) {
-    throw InputError({"segments", "they turn by up to " + rounded_text(turning, 3) + " rad in all",
+    throw InputError({"segments", "they turn by up to " + turning_text(turning) + " in all",
                       "The segments of a track may turn by " + rounded_text(kMostTurning, 3) + " rad in all.",
                       "curvature in 1/m, not a radius"});
   }

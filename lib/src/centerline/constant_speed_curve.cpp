@@ -6,6 +6,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 
 #include "endpoint_rules.hpp"
@@ -181,8 +182,11 @@ ConstantSpeedCurve ConstantSpeedCurve::from_entry_slope(Angle entry_slope_angle,
                                                         Friction friction, double gravity, double p) {
   const double zeta = entry_slope_angle.radians();
   if (!(std::abs(zeta) <= kRightAngle)) {
-    throw InputError(Issue{"", "entry_slope_angle: " + angle_text(Angle::from_radians(zeta)) + " overhangs",
-                           "A slope angle lies between -90 and 90 deg.", ""});
+    throw InputError(
+        Issue{"",
+              "entry_slope_angle: " + quantity_beyond(zeta, Dimension::angle, {-kRightAngle, kRightAngle}) +
+                  " overhangs",
+              "A slope angle lies between -90 and 90 deg.", ""});
   }
   require_positive(length, "length", " m");
   ConstantSpeedCurve curve(friction, gravity, p);

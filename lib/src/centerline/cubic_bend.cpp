@@ -48,6 +48,13 @@ void require_usable(Angle turn, double end_radius) {
         {"", "the radius of a cubic bend, " + exact_text(end_radius) + " m, is not positive and finite",
          "It is the radius where the bend ends.", "a radius above 0 m"});
   }
+  if (!(end_radius >= kShortestWay && end_radius <= kLongestWay)) {
+    throw InputError({"", "the radius of a cubic bend, " + exact_text(end_radius) + " m, is out of range",
+                      "It is between " + rounded_text(kShortestWay, 3) + " m and " +
+                          rounded_text(kLongestWay, 3) +
+                          " m, so that nothing of the bend leaves the range of numbers.",
+                      "a radius in metres"});
+  }
 }
 
 }  // namespace

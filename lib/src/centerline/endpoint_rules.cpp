@@ -130,8 +130,15 @@ void require_entry_speed(double entry_speed) {
 }
 
 void require_gravity(double gravity) {
-  if (std::isfinite(gravity) && gravity > 0.0) return;
-  throw InputError({"", "gravity: " + exact_text(gravity) + " m/s^2 is not a finite number above 0", "",
+  if (gravity >= kWeakestGravity && gravity <= kStrongestGravity) return;
+  const bool is_number = std::isfinite(gravity) && gravity > 0.0;
+  throw InputError({"",
+                    "gravity: " + exact_text(gravity) + " m/s^2 is " +
+                        (is_number ? "out of range" : "not a finite number above 0"),
+                    is_number ? "Between " + rounded_text(kWeakestGravity, 3) + " and " +
+                                    rounded_text(kStrongestGravity, 3) +
+                                    " m/s^2 speeds and times stay within the range of numbers."
+                              : "",
                     "9.81 m/s^2 on Earth, 1.62 m/s^2 on the Moon"});
 }
 

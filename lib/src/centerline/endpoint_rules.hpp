@@ -12,7 +12,7 @@ void require_falling(const Endpoints& endpoints);
 /// @throws InputError if entry_speed is negative or not finite
 void require_entry_speed(double entry_speed);
 
-/// @throws InputError if gravity is not finite or not positive
+/// @throws InputError if gravity is not within kWeakestGravity to kStrongestGravity
 void require_gravity(double gravity);
 
 /// @return whether a body that enters with that speed is as good as at rest: below kRestShare of free fall

@@ -29,7 +29,12 @@ double least_entry_speed(const Endpoints& endpoints, Friction friction, double g
   const double mu = friction.coefficient();
   const double sine = mu / std::sqrt(1.0 + mu * mu);
   const double missing = sine * math::hypot(endpoints.run, endpoints.drop) - endpoints.drop;
-  return std::sqrt(2.0 * gravity * std::max(0.0, missing) / (1.0 + sine));
+  const double square = 2.0 * gravity * std::max(0.0, missing) / (1.0 + sine);
+  if (std::isfinite(square)) return std::sqrt(square);
+  // So far apart that only the root is a number.
+  const double quarter =
+      sine * math::hypot(0.25 * endpoints.run, 0.25 * endpoints.drop) - 0.25 * endpoints.drop;
+  return std::sqrt(8.0 * gravity / (1.0 + sine)) * std::sqrt(quarter);
 }
 
 double least_drop(double run, Friction friction, double entry_speed, double gravity) {

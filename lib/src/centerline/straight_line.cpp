@@ -14,10 +14,14 @@ StraightLine::StraightLine(const Endpoints& endpoints)
       length_(math::hypot(run_, drop_)),
       slope_angle_(math::atan2(drop_, run_)) {
   if (!std::isfinite(length_)) {
+    const bool are_finite = std::isfinite(endpoints.run) && std::isfinite(endpoints.drop);
     throw InputError({"",
                       "endpoints: run " + exact_text(endpoints.run) + " m, drop " +
-                          exact_text(endpoints.drop) + " m are not finite",
-                      "A track leads from one point to another.", "plain numbers in metres"});
+                          exact_text(endpoints.drop) + " m are " +
+                          (are_finite ? "too far apart" : "not finite"),
+                      are_finite ? "The way between them is beyond the range of numbers."
+                                 : "A track leads from one point to another.",
+                      "plain numbers in metres"});
   }
   if (length_ == 0.0) {
     throw InputError({"", "start and finish are the same point", "A straight track needs a length.",

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #define GLISSADE_HAS_WIDE_FUNCTIONS
@@ -39,6 +40,12 @@ void one_by_one(std::span<const double> angles, std::span<double> sines, std::sp
     sines[i] = sine;
     cosines[i] = cosine;
   }
+}
+
+[[nodiscard]] bool any_infinite(std::span<const double> results) {
+  bool any = false;
+  for (const double result : results) any = any || result > std::numeric_limits<double>::max();
+  return any;
 }
 
 #ifdef GLISSADE_HAS_WIDE_FUNCTIONS
@@ -113,6 +120,11 @@ void exponentials(std::span<const double> values, std::span<double> results) {
   i += two_by_two(values.subspan(i), results.subspan(i));
 #endif
   for (; i < values.size(); ++i) results[i] = exp(values[i]);
+  // The wide functions end before their value is no number.
+  if (!any_infinite(results)) return;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (std::isinf(results[k])) results[k] = exp(values[k]);
+  }
 }
 
 }  // namespace glissade::math

@@ -7,11 +7,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <sleef.h>
 
 namespace glissade::math {
 namespace {
+
+/// SLEEF's exponentials end 1.7e-9 before their value is no number.
+constexpr double kLastExponent = 710.0;  // theory: beyond ln of the largest double
 
 /// @return exp(value)/2, where exp(value) itself may be beyond the largest double and half of it is not
 double half_exponential(double value) {
@@ -71,7 +75,10 @@ double atan(double value) {
 }
 
 double atan2(double y, double x) {
-  return Sleef_cinz_atan2d1_u10purec(y, x);
+  constexpr double kSmall =
+      0x1p-1000;  // theory: its cube is nothing; SLEEF rounds twice what loses digits there
+  const double angle = Sleef_cinz_atan2d1_u10purec(y, x);
+  return std::fabs(angle) < kSmall && y != 0.0 ? y / x : angle;
 }
 
 SineCosine sine_cosine(double angle) {
@@ -80,7 +87,10 @@ SineCosine sine_cosine(double angle) {
 }
 
 double cos_pi(double turns) {
-  return Sleef_cinz_cospid1_u05purec(turns);
+  constexpr double kLarge = 0x1p20;  // taste: below SLEEF's 2.5e8, beyond which it takes every cosine for one
+  if (!(std::fabs(turns) > kLarge)) return Sleef_cinz_cospid1_u05purec(turns);
+  if (std::isinf(turns)) return std::numeric_limits<double>::quiet_NaN();
+  return Sleef_cinz_cospid1_u05purec(std::remainder(turns, 2.0));
 }
 
 double sinh(double value) {
@@ -109,11 +119,15 @@ double asinh(double value) {
 }
 
 double exp(double value) {
-  return Sleef_cinz_expd1_u10purec(value);
+  const double power = Sleef_cinz_expd1_u10purec(value);
+  if (!std::isinf(power) || value > kLastExponent) return power;
+  return 2.0 * half_exponential(value);
 }
 
 double expm1(double value) {
-  return Sleef_cinz_expm1d1_u10purec(value);
+  const double growth = Sleef_cinz_expm1d1_u10purec(value);
+  if (!std::isinf(growth) || value > kLastExponent) return growth;
+  return 2.0 * half_exponential(value);
 }
 
 double log(double value) {
@@ -137,6 +151,11 @@ double cbrt(double value) {
 }
 
 double hypot_of_extremes(double x, double y) {
+  // SLEEF loses digits where the result has fewer than 53.
+  constexpr double kSmall = 0x1p-500;  // theory: as many binades as the scale, whose products are exact
+  constexpr double kScale = 0x1p+500;  // theory: 2^-1074 of it has all its digits
+  if (std::fabs(x) < kSmall && std::fabs(y) < kSmall)
+    return Sleef_cinz_hypotd1_u05purec(kScale * x, kScale * y) / kScale;
   return Sleef_cinz_hypotd1_u05purec(x, y);
 }
 

@@ -20,8 +20,13 @@
 namespace glissade::io {
 namespace {
 
-constexpr std::uint32_t kVerticesBetweenPauses = 1U << 16U;
 constexpr double kLargestFloat = std::numeric_limits<float>::max();
+
+/// Asks now and then of a loop over vertices or triangles.
+void pause_at(std::size_t item, const std::stop_token& stop) {
+  constexpr std::size_t kItemsBetweenPauses = std::size_t{1} << 16U;  // taste: some milliseconds
+  if (item % kItemsBetweenPauses == 0) require_going(stop);
+}
 
 /// @param p  in metres
 std::string place_text(Vec3 p) {
@@ -102,11 +107,14 @@ class DistinctRounding {
     std::vector<std::uint32_t> leader(exact_.size());
     std::vector<std::uint32_t> homeless;
     for (std::uint32_t i = 0; i < exact_.size(); ++i) {
-      if (i % kVerticesBetweenPauses == 0) require_going(stop_);
+      pause_at(i, stop_);
       leader[i] = originals.enter(exact_[i], i);
       if (leader[i] == i && taken.enter(positions_[i], i) != i) homeless.push_back(i);
     }
-    for (const std::uint32_t i : homeless) settle(i, taken);
+    for (std::size_t k = 0; k < homeless.size(); ++k) {
+      pause_at(k, stop_);
+      settle(homeless[k], taken);
+    }
     for (std::uint32_t i = 0; i < exact_.size(); ++i) rounded_[i] = rounded_[leader[i]];
   }
 
@@ -114,7 +122,7 @@ class DistinctRounding {
   [[nodiscard]] bool has_merged() const {
     solid::PositionIndex index(positions_, positions_.size());
     for (std::uint32_t i = 0; i < positions_.size(); ++i) {
-      if (i % kVerticesBetweenPauses == 0) require_going(stop_);
+      pause_at(i, stop_);
       if (!(exact_[index.enter(positions_[i], i)] == exact_[i])) return true;
     }
     return false;
@@ -145,10 +153,11 @@ class DistinctRounding {
 
 /// @throws InputError if rounding turns a facet by more than 45 deg: the shape is lost there
 void require_same_attitude(const TriangleMesh& mesh, const std::vector<FloatPosition>& rounded,
-                           LengthUnit unit) {
+                           LengthUnit unit, const std::stop_token& stop) {
   constexpr double kCosineOf45Deg = 0.5 * std::numbers::sqrt2;
   const double per_metre = units_per_metre(unit);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    pause_at(i, stop);
     const auto& [ia, ib, ic] = mesh.triangles[i];
     const Vec3 a = mesh.vertices[ia];
     const Vec3 ab = mesh.vertices[ib] - a;
@@ -202,19 +211,27 @@ std::string offset_in_words(Vec3 offset) {
          decimal_text(offset.z) + ") m of the site";
 }
 
-void require_writable(const TriangleMesh& mesh) {
-  in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
+void require_writable(const TriangleMesh& mesh, const std::stop_token& stop) {
+  const auto usable = [&](std::size_t first, std::size_t last) {
     solid::require_usable_positions(mesh, first, last, "written");
-  });
-  in_ranges(mesh.triangles.size(), [&](std::size_t first, std::size_t last) {
+  };
+  const auto existing = [&](std::size_t first, std::size_t last) {
     solid::require_existing_vertices(mesh, first, last);
-  });
+  };
+  in_ranges(mesh.vertices.size(), usable, stop);
+  in_ranges(mesh.triangles.size(), existing, stop);
 }
 
-bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
+void require_facets(const TriangleMesh& mesh) {
+  if (!mesh.triangles.empty()) return;
+  throw InputError({"mesh", "the mesh has no facets",
+                    "A file of a mesh has one or more: without any there is nothing to read back.", ""});
+}
+
+bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit, const std::stop_token& stop) {
   const double per_metre = units_per_metre(unit);
   std::atomic<bool> is_exact = true;
-  in_ranges(mesh.vertices.size(), [&](std::size_t first, std::size_t last) {
+  const auto look = [&](std::size_t first, std::size_t last) {
     bool all_fit = true;
     bool all_exact = true;
     for (std::size_t i = first; i < last; ++i) {
@@ -224,25 +241,25 @@ bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit) {
     }
     if (!all_fit) refuse_beyond_single_precision(mesh, first, last, unit);
     if (!all_exact) is_exact = false;
-  });
+  };
+  in_ranges(mesh.vertices.size(), look, stop);
   return is_exact;
 }
 
 std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit, const std::stop_token& stop) {
   // What came out of as_written() rounds to itself: vertices that are apart stay so without a look.
-  const bool is_exact = is_single_precision(mesh, unit);
+  const bool is_exact = is_single_precision(mesh, unit, stop);
   const double per_metre = units_per_metre(unit);
   std::vector<Vec3> positions(mesh.vertices.size());
   std::vector<FloatPosition> rounded(mesh.vertices.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
+    pause_at(i, stop);
     positions[i] = per_metre * mesh.vertices[i];
     rounded[i] = nearest(positions[i]);
   }
   if (!is_exact) {
-    require_going(stop);
     DistinctRounding(positions, rounded, unit, stop).keep_apart();
-    require_going(stop);
-    require_same_attitude(mesh, rounded, unit);
+    require_same_attitude(mesh, rounded, unit, stop);
   }
   std::transform(rounded.begin(), rounded.end(), positions.begin(),
                  [per_metre](const FloatPosition& p) { return to_metres(p, per_metre); });
@@ -255,7 +272,7 @@ namespace glissade {
 
 TriangleMesh as_written(const TriangleMesh& mesh, MeshFormat format, LengthUnit unit,
                         const std::stop_token& stop) {
-  io::require_writable(mesh);
+  io::require_writable(mesh, stop);
   if (format == MeshFormat::stl_binary) return {io::single_precision(mesh, unit, stop), mesh.triangles};
   return io::as_double_precision(mesh, unit);
 }

@@ -22,17 +22,23 @@ using FloatPosition = std::array<float, 3>;
 
 /// @throws InputError if a triangle names a vertex that does not exist or a coordinate is not finite
 ///         or beyond kLargestMeshCoordinate
-void require_writable(const TriangleMesh& mesh);
+/// @throws Interrupted if `stop` asks for it
+void require_writable(const TriangleMesh& mesh, const std::stop_token& stop);
+
+/// @throws InputError if there is no facet: read_mesh() takes no such file for a mesh
+void require_facets(const TriangleMesh& mesh);
 
 /// @return whether the vertices are as as_written() makes them for binary STL: each coordinate is a number of
 ///         single precision in the file's unit, up to its conversion to metres
 /// @throws InputError if a coordinate is not finite or does not fit single precision
-[[nodiscard]] bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit);
+/// @throws Interrupted if `stop` asks for it
+[[nodiscard]] bool is_single_precision(const TriangleMesh& mesh, LengthUnit unit,
+                                       const std::stop_token& stop);
 
 /// @return the vertices of as_written() for binary STL [m]
 /// @throws InputError as as_written(); triangles must name vertices that exist
 /// @throws Interrupted if `stop` asks for it
 [[nodiscard]] std::vector<Vec3> single_precision(const TriangleMesh& mesh, LengthUnit unit,
-                                                 const std::stop_token& stop = {});
+                                                 const std::stop_token& stop);
 
 }  // namespace glissade::io

@@ -67,9 +67,10 @@ void write_stl_binary(AtomicFile& file, const TriangleMesh& mesh, const MeshFile
   }
   static_assert(kBytesBeyondFacets <= kBytesBeyondBlock);
   const double per_metre = units_per_metre(options.unit);
-  const bool is_rounded = is_single_precision(mesh, options.unit);
+  const bool is_rounded = is_single_precision(mesh, options.unit, options.stop);
   if (!is_rounded) solid::require_existing_vertices(mesh, 0, mesh.triangles.size());
-  const std::vector<Vec3> rounded = is_rounded ? std::vector<Vec3>() : single_precision(mesh, options.unit);
+  const std::vector<Vec3> rounded =
+      is_rounded ? std::vector<Vec3>() : single_precision(mesh, options.unit, options.stop);
   const std::vector<Vec3>& vertices = is_rounded ? mesh.vertices : rounded;
 
   const auto prefix = stl_prefix(mesh, options);
@@ -170,7 +171,8 @@ void write_off(AtomicFile& file, const TriangleMesh& mesh, const MeshFileOptions
 
 void write_mesh(const std::filesystem::path& file, MeshFormat format, const TriangleMesh& mesh,
                 const MeshFileOptions& options) {
-  if (format != MeshFormat::stl_binary) require_writable(mesh);
+  require_facets(mesh);
+  if (format != MeshFormat::stl_binary) require_writable(mesh, options.stop);
   AtomicFile output(file);
   switch (format) {
     case MeshFormat::stl_binary:

@@ -110,15 +110,25 @@ void write_in_order(AtomicFile& file, const BlockPlan& plan, const std::stop_tok
   OrderedWriting(file, plan, stop).run();
 }
 
-void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work) {
+void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work,
+               const std::stop_token& stop) {
+  constexpr std::size_t kItemsBetweenPauses = std::size_t{1} << 16U;  // taste: a millisecond or less
   // A thread takes some 30 us to start, items some 3 ns each: it must have far more of them to be worth it.
   constexpr std::size_t kWorthAThread = 100'000;
   const std::size_t ranges = std::clamp<std::size_t>(count / kWorthAThread, 1, thread_count());
+  const auto share = [&](std::size_t first, std::size_t last) {
+    do {
+      require_going(stop);
+      const std::size_t pause = std::min(first + kItemsBetweenPauses, last);
+      work(first, pause);
+      first = pause;
+    } while (first < last);
+  };
   std::vector<std::future<void>> others;
   for (std::size_t i = 1; i < ranges; ++i) {
-    others.push_back(std::async(std::launch::async, work, i * count / ranges, (i + 1) * count / ranges));
+    others.push_back(std::async(std::launch::async, share, i * count / ranges, (i + 1) * count / ranges));
   }
-  work(0, count / ranges);
+  share(0, count / ranges);
   for (std::future<void>& other : others) other.get();
 }
 

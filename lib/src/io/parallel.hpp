@@ -25,11 +25,14 @@ struct BlockPlan {
 /// threads there are.
 /// @throws FileError as AtomicFile, or what `format` throws
 /// @throws Interrupted if `stop` asks for it, from one block to the next
-void write_in_order(AtomicFile& file, const BlockPlan& plan, const std::stop_token& stop = {});
+void write_in_order(AtomicFile& file, const BlockPlan& plan, const std::stop_token& stop);
 
-/// Splits [0, count) among the cores: `work` gets [first, last) and runs on several threads at once.
+/// Splits [0, count) among the cores: `work` gets one [first, last) after the other of a core's share and runs on
+/// several threads at once.
 /// @throws what `work` throws; where several do, that of the lowest range
-void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work);
+/// @throws Interrupted if `stop` asks for it, from one range to the next
+void in_ranges(std::size_t count, const std::function<void(std::size_t first, std::size_t last)>& work,
+               const std::stop_token& stop);
 
 /// Hands 0 to count - 1 to the cores in their order, each as soon as one is free.
 /// @param begin  of each in its order, one at a time

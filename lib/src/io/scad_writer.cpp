@@ -123,7 +123,8 @@ void write_faces(AtomicFile& file, const TriangleMesh& mesh, const std::stop_tok
 
 void write_scad(const std::filesystem::path& file, const TriangleMesh& mesh,
                 const std::vector<Vec3>& centerline, const ScadFileOptions& options) {
-  require_writable(mesh);
+  require_facets(mesh);
+  require_writable(mesh, options.stop);
   require_centerline(centerline);
   const double per_metre = units_per_metre(options.unit);
   AtomicFile output(file);

@@ -84,21 +84,22 @@ std::string xml_text(const std::string& text) {
 }
 
 /// @return coordinates as a reader gets them [mm]
-std::vector<FloatPosition> positions_of(const TriangleMesh& mesh) {
-  const bool rounded = is_single_precision(mesh, LengthUnit::millimetre);
-  const std::vector<Vec3> vertices = rounded ? mesh.vertices : single_precision(mesh, LengthUnit::millimetre);
+std::vector<FloatPosition> positions_of(const TriangleMesh& mesh, const std::stop_token& stop) {
+  const bool rounded = is_single_precision(mesh, LengthUnit::millimetre, stop);
+  const std::vector<Vec3> vertices =
+      rounded ? mesh.vertices : single_precision(mesh, LengthUnit::millimetre, stop);
   std::vector<FloatPosition> positions;
   positions.reserve(vertices.size());
   for (const Vec3 vertex : vertices) positions.push_back(nearest(core::kMillimetres * vertex));
   return positions;
 }
 
-void append_object(std::string& text, const PrintPiece& piece, std::size_t id) {
+void append_object(std::string& text, const PrintPiece& piece, std::size_t id, const std::stop_token& stop) {
   text += "  <object id=\"";
   append(text, id);
   text += "\" type=\"model\" name=\"" + xml_text(piece.name) + "\" partnumber=\"" + xml_text(piece.number) +
           "\">\n   <mesh>\n    <vertices>\n";
-  for (const FloatPosition& place : positions_of(piece.mesh)) {
+  for (const FloatPosition& place : positions_of(piece.mesh, stop)) {
     text += "     <vertex x=\"";
     append(text, place[0]);
     text += "\" y=\"";
@@ -120,13 +121,14 @@ void append_object(std::string& text, const PrintPiece& piece, std::size_t id) {
   text += "    </triangles>\n   </mesh>\n  </object>\n";
 }
 
-std::string model_text(const std::vector<PrintPiece>& pieces, const std::string& title) {
+std::string model_text(const std::vector<PrintPiece>& pieces, const std::string& title,
+                       const std::stop_token& stop) {
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n <metadata name=\"Title\">" +
       xml_text(title) + "</metadata>\n <metadata name=\"Application\">Glissade " + std::string(version()) +
       "</metadata>\n <resources>\n";
-  for (std::size_t i = 0; i < pieces.size(); ++i) append_object(text, pieces[i], i + 1);
+  for (std::size_t i = 0; i < pieces.size(); ++i) append_object(text, pieces[i], i + 1, stop);
   text += " </resources>\n <build>\n";
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     text += "  <item objectid=\"";
@@ -308,20 +310,21 @@ std::string size_in_words(Vec3 size) {
 
 }  // namespace
 
-std::string three_mf_bytes(const std::vector<PrintPiece>& pieces, const std::string& title) {
+std::string three_mf_bytes(const std::vector<PrintPiece>& pieces, const std::string& title,
+                           const std::stop_token& stop) {
   if (pieces.empty()) throw InputError({"3MF", "there is no piece", "A file holds one or more.", ""});
   for (const PrintPiece& piece : pieces) {
     if (piece.mesh.triangles.empty()) throw InputError({"piece " + piece.number, "has no triangle", "", ""});
-    require_writable(piece.mesh);
+    require_writable(piece.mesh, stop);
   }
   return zip_bytes({{"[Content_Types].xml", std::string(kTypes)},
                     {"_rels/.rels", std::string(kRelations)},
-                    {std::string(kModelName), model_text(pieces, title)}});
+                    {std::string(kModelName), model_text(pieces, title, stop)}});
 }
 
 void write_three_mf(const std::filesystem::path& file, const std::vector<PrintPiece>& pieces,
-                    const std::string& title) {
-  const std::string bytes = three_mf_bytes(pieces, title);
+                    const std::string& title, const std::stop_token& stop) {
+  const std::string bytes = three_mf_bytes(pieces, title, stop);
   write_atomically(file, bytes);
 }
 
@@ -341,7 +344,7 @@ void require_same_three_mf(const std::filesystem::path& file, const std::vector<
   const bool same = std::equal(
       found.begin(), found.end(), pieces.begin(), pieces.end(), [](const PrintPiece& a, const PrintPiece& b) {
         return xml_text(a.name) == xml_text(b.name) && xml_text(a.number) == xml_text(b.number) &&
-               a.mesh.triangles == b.mesh.triangles && positions_of(a.mesh) == positions_of(b.mesh);
+               a.mesh.triangles == b.mesh.triangles && positions_of(a.mesh, {}) == positions_of(b.mesh, {});
       });
   if (!same) {
     throw InternalError(

@@ -45,9 +45,24 @@ void require_body(const Body& body, double gravity) {
   require(gravity > 0.0 && std::isfinite(gravity),
           "gravity: " + exact_text(gravity) + " m/s^2 is not a finite number larger than 0",
           "Gravity drives the body.");
+  const std::string within = " the squares of all speeds stay within the range of numbers.";
+  require(body.entry_speed <= kFastestEntry,
+          "entry_speed: " + exact_text(body.entry_speed) + " m/s is out of range",
+          "Up to " + rounded_text(kFastestEntry, 3) + " m/s" + within);
+  require(gravity >= kWeakestGravity && gravity <= kStrongestGravity,
+          "gravity: " + exact_text(gravity) + " m/s^2 is out of range",
+          "Between " + rounded_text(kWeakestGravity, 3) + " and " + rounded_text(kStrongestGravity, 3) +
+              " m/s^2" + within);
 }
 
-void require_ride(const Centerline& centerline, const Body& body) {
+void require_ride(const Centerline& centerline, const Body& body, double gravity) {
+  constexpr double kMost = 1e305;  // taste: a thousandth of the largest double
+  if (!(gravity * centerline.length() <= kMost)) {
+    throw InputError({"",
+                      "the track is " + exact_text(centerline.length()) + " m long, at a gravity of " +
+                          exact_text(gravity) + " m/s^2",
+                      "Squares of the speeds on it leave the range of numbers.", "lengths in metres"});
+  }
   if (!body.law || !body.law->depends_on_speed()) return;
   if (!(body.entry_speed > 0.0)) {
     throw InputError({"", "entry_speed: 0 m/s", "What resists more the slower it is cannot start from rest.",
@@ -382,13 +397,17 @@ Motion::Motion(CenterlinePtr centerline, Body body, double gravity) {
   if (!centerline) throw InputError({"", "there is no centerline to ride on", "", ""});
   body.landing = landing_of(body);
   if (body.landing) {
+    const double speed = body.landing->speed;
+    if (!(speed > 0.0 && std::isfinite(speed)))
+      throw InputError({"", "landing: " + exact_text(speed) + " m/s is not a finite speed above 0",
+                        "What comes down on a track moves.", ""});
     // What friction stops at once stands where it lands; a law that needs speed ends there.
     const double left =
         speed_after(*body.landing, Angle::from_radians(centerline->slope_angle(0.0)), body.friction);
     body.entry_speed = std::max(left, kStopped);
   }
   require_body(body, gravity);
-  require_ride(*centerline, body);
+  require_ride(*centerline, body, gravity);
   ride_ = std::make_shared<const Ride>(std::move(centerline), body, gravity);
 }
 

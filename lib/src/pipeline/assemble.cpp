@@ -471,8 +471,9 @@ Assembly assemble(const Design& given, Track track, const RunContext& context, c
   std::shared_ptr<const WorkshopBuild> fabrication;
   if (design.fabrication) {
     steps.enter("making parts", kPartsCost);
-    fabrication = fabricate(design, track, placement);
-    for (PendingFile& file : workshop_files(design, fabrication)) files.push_back(std::move(file));
+    fabrication = fabricate(design, track, placement, steps.stop());
+    for (PendingFile& file : workshop_files(design, fabrication, steps.stop()))
+      files.push_back(std::move(file));
   }
   return {std::move(stem),
           std::move(track),

@@ -64,7 +64,8 @@ void tell_wear(const Design& design, const Track& track, PlateOptions& options) 
   if (liner.where == LinerPlaces::worn || liner.life) options.floor_wear = floor_wear(design, track);
 }
 
-WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options) {
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PlateOptions options,
+                   const std::stop_token&) {
   tell_wear(design, track, options);
   if (options.supports) options.supports->ground = in_plane(design.track, options.supports->ground);
   WorkshopBuild build = make_plates(*track.centerline, *design.cross_section, arcs_of(design, track), options,
@@ -73,14 +74,16 @@ WorkshopBuild make(const Design& design, const Track& track, const Placement& fr
   return build;
 }
 
-WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PrintOptions options) {
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, PrintOptions options,
+                   const std::stop_token& stop) {
   if (options.stands && !options.stands->ground.empty())
     options.stands->ground = in_plane(design.track, options.stands->ground);
   return make_prints(*track.centerline, CrossSection(*design.cross_section), arcs_of(design, track), options,
-                     design.mesh.tolerance, frame, body_of(design), design.gravity);
+                     design.mesh.tolerance, frame, body_of(design), design.gravity, stop);
 }
 
-WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, TimberOptions options) {
+WorkshopBuild make(const Design& design, const Track& track, const Placement& frame, TimberOptions options,
+                   const std::stop_token&) {
   if (options.legs) options.legs->ground = in_plane(design.track, options.legs->ground);
   return make_timber(*track.centerline, *design.cross_section, arcs_of(design, track), options, frame,
                      body_of(design), design.gravity);
@@ -101,9 +104,9 @@ void measure_clearances(const Design& design, const Placement& frame, Workshop& 
 }  // namespace
 
 std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track& track,
-                                               const Placement& frame) {
+                                               const Placement& frame, const std::stop_token& stop) {
   WorkshopBuild build = at_keys(design, [&] {
-    return std::visit([&](const auto& options) { return make(design, track, frame, options); },
+    return std::visit([&](const auto& options) { return make(design, track, frame, options, stop); },
                       design.fabrication->process);
   });
   build.workshop.name = design.name;

@@ -105,8 +105,8 @@ PendingFile three_mf_of(std::string name, std::vector<PrintPiece> laid, const st
   PendingFile file;
   file.name = std::move(name);
   file.cost = 0.2;
-  file.write = [pieces, title](const fs::path& path, const std::stop_token&) {
-    write_three_mf(path, *pieces, title);
+  file.write = [pieces, title](const fs::path& path, const std::stop_token& stop) {
+    write_three_mf(path, *pieces, title, stop);
   };
   file.read_back = [pieces](const fs::path& path, const std::stop_token&) {
     require_same_three_mf(path, *pieces);
@@ -115,8 +115,10 @@ PendingFile three_mf_of(std::string name, std::vector<PrintPiece> laid, const st
 }
 
 /// One piece as it lies on a bed, in binary STL.
-PendingFile stl_of(std::string name, const TriangleMesh& mesh, LengthUnit unit) {
-  const auto rounded = std::make_shared<const TriangleMesh>(as_written(mesh, MeshFormat::stl_binary, unit));
+PendingFile stl_of(std::string name, const TriangleMesh& mesh, LengthUnit unit,
+                   const std::stop_token& asked) {
+  const auto rounded =
+      std::make_shared<const TriangleMesh>(as_written(mesh, MeshFormat::stl_binary, unit, asked));
   PendingFile file;
   file.name = std::move(name);
   file.cost = kSmallFile;
@@ -214,7 +216,7 @@ void add_sheets(const Design& design, const std::shared_ptr<const WorkshopBuild>
 }
 
 void add_prints(const Design& design, const std::shared_ptr<const WorkshopBuild>& build,
-                std::vector<PendingFile>& files) {
+                const std::stop_token& stop, std::vector<PendingFile>& files) {
   const auto* const print = std::get_if<PrintOptions>(&design.fabrication->process);
   if (print == nullptr) return;
   const Choice wanted(design);
@@ -228,7 +230,8 @@ void add_prints(const Design& design, const std::shared_ptr<const WorkshopBuild>
       return one.number == std::to_string(part.number);
     });
     if (piece == build->prints.end()) continue;
-    files.push_back(stl_of(part_stem(stem_of(design), part) + ".stl", piece->mesh, design.exports.unit));
+    files.push_back(
+        stl_of(part_stem(stem_of(design), part) + ".stl", piece->mesh, design.exports.unit, stop));
   }
 }
 
@@ -278,7 +281,8 @@ void count_templates(const Design& design, WorkshopBuild& build) {
 }
 
 std::vector<PendingFile> workshop_files(const Design& design,
-                                        const std::shared_ptr<const WorkshopBuild>& build) {
+                                        const std::shared_ptr<const WorkshopBuild>& build,
+                                        const std::stop_token& stop) {
   const Choice wanted(design);
   const std::string stem = stem_of(design);
   const Workshop& workshop = build->workshop;
@@ -286,7 +290,7 @@ std::vector<PendingFile> workshop_files(const Design& design,
   add_part_files(design, build, files);
   if (wanted(WorkshopFormat::step))
     files.push_back(step_of(stem + ".step", std::shared_ptr<const Workshop>(build, &workshop)));
-  add_prints(design, build, files);
+  add_prints(design, build, stop, files);
   add_sheets(design, build, files);
   if (wanted(WorkshopFormat::nests)) add_nests(design, *build, files);
   if (wanted(WorkshopFormat::tables)) add_tables(stem, workshop, files);

@@ -3,6 +3,7 @@
 #include "glissade/pipeline.hpp"
 
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 namespace glissade::pipeline {
@@ -19,7 +20,9 @@ void count_templates(const Design& design, WorkshopBuild& build);
 
 /// Every file that a workshop gets and the design asks for: a folder of parts, the assembly, drawings, templates, a folder
 /// of nests, the tables.
+/// @throws Interrupted if `stop` asks for it while the mesh of a part is rounded
 [[nodiscard]] std::vector<PendingFile> workshop_files(const Design& design,
-                                                      const std::shared_ptr<const WorkshopBuild>& build);
+                                                      const std::shared_ptr<const WorkshopBuild>& build,
+                                                      const std::stop_token& stop);
 
 }  // namespace glissade::pipeline

@@ -163,6 +163,9 @@ std::vector<Stroke> CrossSection::strokes(Side side) const {
 
 // Half the angle of a chord that stays within the tolerance on the widest arc: all arcs are cut alike.
 double CrossSection::half_step(double chord_tolerance) const {
+  if (!(chord_tolerance > 0.0))
+    throw InputError({"", "chord_tolerance: " + exact_text(chord_tolerance) + " m is not above zero",
+                      "Chords leave the arc that they stand for.", "0.0001 m"});
   return 2.0 * math::asin(std::sqrt(std::min(0.5, 0.5 * chord_tolerance / widest_radius_)));
 }
 

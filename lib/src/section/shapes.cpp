@@ -37,12 +37,13 @@ using Polygon = CrossSection::Polygon;
 class RequireSizes {
  public:
   void length(const std::string& name, double size, const char*) const {
-    if (std::isfinite(size) && size > 0.0) return;
+    if (std::isfinite(size) && size > 0.0) return within(name, size);
     throw InputError({"", name + ": " + length_text(size) + " is not a size",
                       "A " + name + " is finite and above zero.", "a positive length"});
   }
   void optional_length(const std::string& name, double size) const {
-    if (std::isfinite(size) && size >= 0.0) return;
+    if (size == 0.0) return;
+    if (std::isfinite(size) && size > 0.0) return within(name, size);
     throw InputError({"", name + ": " + length_text(size) + " is not a size",
                       "A " + name + " is finite, zero or above.", "zero or a positive length"});
   }
@@ -55,13 +56,23 @@ class RequireSizes {
   }
   void corners(const std::string& name, const Polygon& corners, const char*) const {
     for (const Vec2 corner : corners) {
-      if (std::isfinite(corner.x) && std::isfinite(corner.y)) continue;
+      if (std::max(std::fabs(corner.x), std::fabs(corner.y)) <= CrossSection::kLargestLength) continue;
       throw InputError(
           {"", name + ": (" + exact_text(corner.x) + ", " + exact_text(corner.y) + ") is not a point",
-           "Every coordinate of an outline is a finite number.", ""});
+           "Every coordinate of an outline is a finite number, 1e+100 m at most.", ""});
     }
   }
   void misnomer(const char*, const char*) const {}
+
+ private:
+  static void within(const std::string& name, double size) {
+    if (size >= CrossSection::kSmallestLength && size <= CrossSection::kLargestLength) return;
+    throw InputError({"", name + ": " + exact_text(size) + " m is out of range",
+                      "Between " + rounded_text(CrossSection::kSmallestLength, 3) + " m and " +
+                          rounded_text(CrossSection::kLargestLength, 3) +
+                          " m area and moment of a section stay within the range of numbers.",
+                      "lengths in metres"});
+  }
 };
 
 void require_thinner(double thickness, const std::string& name, double width) {

@@ -579,6 +579,7 @@ constexpr double kMostToLookAt = 5e5;  // budget: triangles
 
 std::optional<Issue> obstacle_to_sweep(const Centerline& track, const CrossSection& section,
                                        double tolerance) {
+  solid::require_distance(tolerance);
   const WithBreaks centerline(track, Widening(section).knots_between(0.0, track.length()));
   const Placement placement;
   SweepOptions options;

@@ -154,13 +154,16 @@ double finest_length(const Centerline& centerline, const CrossSection& section, 
   return kCoordinateShare * coordinate_size(centerline, section, placement);
 }
 
+void require_distance(double tolerance) {
+  if (std::isfinite(tolerance) && tolerance > 0.0) return;
+  throw InputError({"", "tolerance: " + length_text(tolerance) + " is not a distance",
+                    "The mesh stays within the tolerance of the ideal solid; it is finite and above zero.",
+                    "0.5 mm for a sheet-metal chute"});
+}
+
 void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
                    const SweepOptions& options) {
-  if (!(std::isfinite(options.tolerance) && options.tolerance > 0.0)) {
-    throw InputError({"", "tolerance: " + length_text(options.tolerance) + " is not a distance",
-                      "The mesh stays within the tolerance of the ideal solid; it is finite and above zero.",
-                      "0.5 mm for a sheet-metal chute"});
-  }
+  require_distance(options.tolerance);
   if (options.largest_kink && !(options.largest_kink->radians() > 0.0)) {
     throw InputError({"", "largest_kink: " + angle_text(*options.largest_kink) + " is not an angle",
                       "Facets that follow a curve meet at an angle above zero.", "0.25 deg"});

@@ -64,6 +64,9 @@ class Planner {
 [[nodiscard]] double finest_length(const Centerline& centerline, const CrossSection& section,
                                    const Placement& placement);
 
+/// @throws InputError if it is not finite and positive
+void require_distance(double tolerance);
+
 /// @throws InputError if the options, or the section's thinnest place, are out of range (see sweep())
 void check_options(const Centerline& centerline, const CrossSection& section, const Placement& placement,
                    const SweepOptions& options);

@@ -111,16 +111,7 @@ Factor grid(const std::string& key, const std::vector<std::string_view>& parts) 
   Factor factor;
   factor.inputs = {{key, from->unit, true}};
   factor.size = count;
-  factor.values.reserve(count);
-  for (std::uint64_t index = 0; index < count; ++index) {
-    // The last value is exactly the one that was given; between them the product first, which keeps round steps round.
-    const double steps = static_cast<double>(std::max<std::uint64_t>(count - 1, 1));
-    const double value =
-        index + 1 == count && count > 1
-            ? to->number
-            : from->number + (to->number - from->number) * static_cast<double>(index) / steps;
-    factor.values.push_back({exact_text(value) + from->unit});
-  }
+  factor.grid = Grid{from->number, to->number, count};
   return factor;
 }
 
@@ -253,7 +244,21 @@ Factor scatter(const std::vector<std::string>& texts, Sampling sampling, std::ui
   return factor;
 }
 
+double Grid::at(std::uint64_t index) const {
+  if (index == 0) return from;
+  if (index + 1 == count) return to;
+  const double steps = static_cast<double>(count - 1);
+  // The product first, which keeps round steps round.
+  const double way = (to - from) * static_cast<double>(index);
+  if (std::isfinite(way)) return from + way / steps;
+  const double share = static_cast<double>(index) / steps;
+  return (1.0 - share) * from + share * to;
+}
+
 std::vector<std::string> Factor::at(std::uint64_t setting) const {
+  if (setting >= size)
+    throw InternalError({"", "a factor has no setting " + std::to_string(setting), "", ""});
+  if (grid) return {exact_text(grid->at(setting)) + inputs.front().unit};
   if (distributions.empty()) return values.at(setting);
   const std::vector<double> shares = cube.at(setting);
   std::vector<std::string> texts;

@@ -36,6 +36,9 @@ struct Endpoints {
 /// quotients of what they are found by stay within the range of numbers.
 inline constexpr double kShortestWay = 1e-200;
 inline constexpr double kLongestWay = 1e200;
+/// What gravity may be for tracks and rides [m/s^2]: with it, speeds and times of all such ways are numbers.
+inline constexpr double kWeakestGravity = 1e-100;
+inline constexpr double kStrongestGravity = 1e100;
 /// The highest friction coefficient of those closed forms, 89.994 deg.
 inline constexpr double kRoughest = 1e4;
 

@@ -22,7 +22,7 @@ struct ClothoidSegment {
 /// Curve: curvature piecewise linear in arc length. Position and slope angle are continuous; curvature may
 ///   jump from one segment to the next (at() gives the value after the jump). The track may overhang or loop.
 /// Cost: construction O(n + angle turned), at() O(log n).
-/// Accuracy: kClothoidAccuracy * length() in position.
+/// Accuracy: clothoid_accuracy(turning) * length() in position.
 class ClothoidSpline final : public Centerline {
  public:
   /// @param entry_slope_angle  zeta at the start; finite
@@ -57,8 +57,14 @@ class ClothoidSpline final : public Centerline {
   double length_ = 0.0;
 };
 
-/// Stated bound of the position error of ClothoidSpline, relative to the length of the track.
+/// Stated bound of the position error of ClothoidSpline, relative to the length of the track, where it turns by no more than
+/// some loops.
 inline constexpr double kClothoidAccuracy = 1e-14;
+/// The same of every track: a slope angle keeps its last digit of all that was turned.
+/// @param turning  of the segments, adding up left and right turns [rad]; up to kMostTurning
+[[nodiscard]] constexpr double clothoid_accuracy(double turning) {
+  return kClothoidAccuracy + 2e-16 * turning;  // accuracy: measured up to 1e6 rad, half of it
+}
 
 /// The most that the segments of one ClothoidSpline may turn, adding up left and right turns [rad].
 inline constexpr double kMostTurning = 1e6;

@@ -60,8 +60,8 @@ struct CoulombSolution {
 /// @param endpoints  run [m], finite, any sign (a negative run is the mirror image), 0 is free fall along a
 ///                   vertical line; drop [m], finite, > 0 and > mu |run|; the longer of both kShortestWay to
 ///                   kLongestWay
-/// @param gravity    [m/s^2]; finite, > 0
-/// @throws InputError if run, drop or gravity is not finite, drop or gravity is not positive, the way is out of
+/// @param gravity    [m/s^2]; kWeakestGravity to kStrongestGravity
+/// @throws InputError if run or drop is not finite, drop is not positive, the way or gravity is out of
 ///         its range, or the friction coefficient is above kRoughest
 /// @throws InfeasibleError if drop <= mu |run|: from rest, no track whatever reaches the finish
 [[nodiscard]] CoulombSolution solve_coulomb_brachistochrone(const Endpoints& endpoints, Friction friction,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/centerline/centerline.hpp"
 #include "glissade/core/units.hpp"
 
 #include <array>
@@ -28,7 +29,7 @@ class CubicBend {
   };
 
   /// @param turn        D; above 0, at most kMostTurn
-  /// @param end_radius  R [m]; finite, > 0
+  /// @param end_radius  R [m]; kShortestWay to kLongestWay
   /// @throws InputError if one is out of its range
   CubicBend(Angle turn, double end_radius);
 

@@ -76,7 +76,7 @@ struct FlyingStartSolution {
 ///                     drop [m], finite, any sign, > least_drop(); the longer of both kShortestWay to
 ///                     kLongestWay
 /// @param entry_speed  v0 [m/s]; finite, > 0, however small or large
-/// @param gravity      [m/s^2]; finite, > 0
+/// @param gravity      [m/s^2]; kWeakestGravity to kStrongestGravity
 /// @throws InputError if a number is outside its stated range, or the friction coefficient is above kRoughest
 /// @throws ConvergenceError if no track is found: next to the limit of what can be reached, or all but flat
 /// @throws InfeasibleError if drop <= least_drop(), or an entry speed below kRestShare would be needed to exceed it:

@@ -36,9 +36,9 @@ class NoCurvatureLoadCurve final : public Centerline {
 
   /// Travel time of the body that the curve was made for, which feels no curvature load: shorter than the
   /// time of any real body on the same track, and not attainable.
-  /// @param gravity  [m/s^2]; finite, > 0
+  /// @param gravity  [m/s^2]; kWeakestGravity to kStrongestGravity
   /// @return 2 sqrt(A/g) arccos(cos(a_1 + delta)/cos(delta)) [s]
-  /// @throws InputError if gravity is not finite or not positive
+  /// @throws InputError if gravity is out of its range
   [[nodiscard]] double travel_time_without_curvature_load(double gravity = kDefaultGravity) const;
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "no-curvature-load"; }

@@ -12,7 +12,7 @@ namespace glissade {
 /// Identity: least_entry_speed and least_drop are inverse to each other.
 
 /// @param endpoints  run [m], finite, any sign; drop [m], finite, any sign
-/// @param gravity    [m/s^2]; finite, > 0
+/// @param gravity    [m/s^2]; kWeakestGravity to kStrongestGravity
 /// @throws InputError if a number is outside its stated range
 /// @return the entry speed at which a body would come to rest at the finish on the best track there is [m/s];
 ///         more is needed to arrive. 0 where it arrives from rest, or but for rounding would
@@ -21,7 +21,7 @@ namespace glissade {
 
 /// @param run          [m]; finite, any sign
 /// @param entry_speed  v0 [m/s]; finite, >= 0
-/// @param gravity      [m/s^2]; finite, > 0
+/// @param gravity      [m/s^2]; kWeakestGravity to kStrongestGravity
 /// @throws InputError if a number is outside its stated range
 /// @return the drop that a finish at that run must exceed [m]; negative above the start, -infinity if the body could
 ///         climb without bound

@@ -12,7 +12,7 @@ class StraightLine final : public Centerline {
  public:
   /// @param endpoints  finish as seen from the start [m]; finite, not both zero. The sign of the run is not
   ///   used (x counts towards the finish); run 0 is a vertical track, a negative drop leads uphill.
-  /// @throws InputError if a value is not finite or start and finish are the same point
+  /// @throws InputError if a value or the way between them is not finite, or start and finish are the same point
   explicit StraightLine(const Endpoints& endpoints);
 
   [[nodiscard]] std::string_view kind() const noexcept override { return "straight"; }

@@ -12,7 +12,8 @@
 /// Angles are in radians. Domains, signs, infinities and NaN are those of the function of the same name in
 /// `<cmath>`; errno is never set.
 ///
-/// Accuracy: kMathAccuracyUlp over the whole domain, kHypotAccuracyUlp for the hypotenuse.
+/// Accuracy: kMathAccuracyUlp over the whole domain, kHypotAccuracyUlp for the hypotenuse. A power above
+/// kLargestPower may be infinite.
 ///
 /// Source: SLEEF (N. Shibata and F. Petrogalli, IEEE Trans. Parallel Distrib. Syst. 31(6), 2020,
 /// doi:10.1109/TPDS.2019.2960333), its functions without processor variants.
@@ -22,6 +23,8 @@ namespace glissade::math {
 inline constexpr double kMathAccuracyUlp = 1.0;
 /// The same for hypot() of two sides (the three roundings of the sum of squares count by half).
 inline constexpr double kHypotAccuracyUlp = 1.25;
+/// The powers that pow() surely tells: the largest double less seven millionths of it.
+inline constexpr double kLargestPower = 1.79768e308;
 
 [[nodiscard]] double sin(double angle);
 [[nodiscard]] double cos(double angle);
@@ -40,7 +43,7 @@ struct SineCosine {
 /// @return sin() and cos() of one angle, to the same bits, at the price of one of them
 [[nodiscard]] SineCosine sine_cosine(double angle);
 
-/// @return cos(pi turns), exact where it is 0 or 1
+/// @return cos(pi turns), exact where it is 0, 1 or -1
 [[nodiscard]] double cos_pi(double turns);
 
 [[nodiscard]] double sinh(double value);

@@ -23,6 +23,10 @@ class WidthLaw {
   /// @param knots  at least one, by ascending places
   /// @throws InputError if there is none or a place does not lie after the one before it
   explicit WidthLaw(std::vector<WidthAt> knots);
+  // Copies alone: what was moved from has its width still.
+  WidthLaw(const WidthLaw&) = default;
+  WidthLaw& operator=(const WidthLaw&) = default;
+  ~WidthLaw() = default;
 
   [[nodiscard]] const std::vector<WidthAt>& knots() const { return knots_; }
   /// @return B(s) [m]

@@ -30,8 +30,8 @@ struct MeshFileOptions {
 /// shortest decimal; binary STL holds the coordinates of as_written(). Facet normals in STL are those of the
 /// coordinates written, (0, 0, 0) where a facet has no area. docs/files.md describes each format.
 /// @throws FileError as AtomicFile
-/// @throws InputError if a triangle names a vertex that does not exist, a coordinate is not finite or does
-///         not fit the format, and as as_written()
+/// @throws InputError if there are no triangles, one names a vertex that does not exist, a coordinate is not finite or
+///         does not fit the format, and as as_written()
 /// @throws Interrupted if options.stop asks for it
 void write_mesh(const std::filesystem::path& file, MeshFormat format, const TriangleMesh& mesh,
                 const MeshFileOptions& options = {});

@@ -32,6 +32,7 @@ struct ScadFileOptions {
 /// @throws InputError as write_mesh(), or if there are fewer than two centerline points, one is not finite or
 ///         lies beside their plane by more than 1e-9 of the size of the coordinates
 /// @throws FileError as AtomicFile
+/// @throws Interrupted if options.stop asks for it
 void write_scad(const std::filesystem::path& file, const TriangleMesh& mesh,
                 const std::vector<Vec3>& centerline, const ScadFileOptions& options = {});
 

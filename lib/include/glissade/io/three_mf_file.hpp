@@ -3,6 +3,7 @@
 #include "glissade/parts/print_piece.hpp"
 
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,11 @@ namespace glissade {
 
 /// @param title  of the model
 /// @throws InputError if there is no piece, a piece has no triangle, or as as_written(); FileError as AtomicFile
+/// @throws Interrupted if `stop` asks for it, within some milliseconds but while the bytes are compressed
 void write_three_mf(const std::filesystem::path& file, const std::vector<PrintPiece>& pieces,
-                    const std::string& title);
-[[nodiscard]] std::string three_mf_bytes(const std::vector<PrintPiece>& pieces, const std::string& title);
+                    const std::string& title, const std::stop_token& stop = {});
+[[nodiscard]] std::string three_mf_bytes(const std::vector<PrintPiece>& pieces, const std::string& title,
+                                         const std::stop_token& stop = {});
 
 /// Reads the objects of a 3MF file in millimetres: meshes, names, numbers. Objects made of components and transforms of items
 /// are refused, not overlooked.

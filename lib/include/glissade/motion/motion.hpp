@@ -21,9 +21,12 @@ struct FrictionChange {
 
 /// A stream that comes down on the start of a track and slides on, without bounce.
 struct Landing {
-  double speed = 0.0;  ///< V1, before the impact [m/s]; > 0
+  double speed = 0.0;  ///< V1, before the impact [m/s]; finite, > 0
   Angle angle;         ///< of its way below the horizontal
 };
+
+/// What the speed of a body may be where it enters a track [m/s].
+inline constexpr double kFastestEntry = 1e100;
 
 /// @return V2 = V1 (cos(theta) - sin(theta) tan(phi)), theta the angle between the way and the track [m/s]; not
 ///         positive where friction takes all of it
@@ -147,9 +150,10 @@ struct QuantityPeak {
 class Motion {
  public:
   /// Rides the whole track, or up to the stall or lift-off.
-  /// @param gravity  [m/s^2]; finite, > 0
-  /// @throws InputError if there is no centerline, entry_speed or drag_per_metre is negative or not finite,
-  ///         head_wind is not finite, friction_changes do not ascend, gravity is not positive and finite, or a
+  /// @param gravity  [m/s^2]; kWeakestGravity to kStrongestGravity
+  /// @throws InputError if there is no centerline, gravity times its length is above 1e305, entry_speed or drag_per_metre is
+  ///         negative or not finite, entry_speed is above kFastestEntry, head_wind is not finite, friction_changes do not
+  ///         ascend, gravity is out of its range, a landing has no speed, or a
   ///         law that depends on speed is to start from rest or where curvature is unbounded
   /// @throws ConvergenceError if the centerline is so rough between its breaks that no panels resolve it
   Motion(CenterlinePtr centerline, Body body, double gravity = kDefaultGravity);

@@ -20,7 +20,7 @@ struct OptimizeOptions {
   double tolerance = 1e-5;  ///< of the first-order residual, a tenth is aimed at; 1e-12 <= tolerance <= 1e-3
   double limit_tolerance = 1e-7;  ///< greatest violation of a limit, of its scale; 1e-10 <= value <= 1e-4
   double time_budget =
-      60.0;  ///< of the calling thread's processor time [s]; > 0; ends with the best track so far
+      60.0;  ///< of the calling thread's processor time [s]; finite, > 0; ends with the best track so far
 };
 
 enum class OptimizeStatus {

@@ -72,6 +72,9 @@ class CrossSection {
   static constexpr Angle kLeastVAngle = Angle::from_degrees(20.0);
   static constexpr Angle kMostVAngle = Angle::from_degrees(170.0);
   static constexpr std::size_t kMaxOutlineVertices = 2000;
+  /// What a length of a section may be [m]: area and moment stay within the range of numbers.
+  static constexpr double kSmallestLength = 1e-100;
+  static constexpr double kLargestLength = 1e100;
   /// Most that a width may change over a length, over that length: each wall turns by 45 deg from the track.
   static constexpr double kSteepestWidening = 2.0;
 
@@ -99,6 +102,7 @@ class CrossSection {
   /// plate keeps its thickness, a bore loses at most `chord_tolerance` of clearance between two vertices and
   /// none at them. (0, 0) is a vertex of every round section. Left and right are exact mirror images.
   /// @param chord_tolerance  greatest distance between a round outline and its polygon [m]; > 0
+  /// @throws InputError if it is not above zero, as of bore(), vertex_count() and chord_error()
   /// @return outline, counter-clockwise; no repeated vertex
   [[nodiscard]] Polygon outline(double chord_tolerance) const;
   /// @return bore of a pipe, clockwise; empty for the others

@@ -64,6 +64,7 @@ struct Solid {
 
 /// What keeps a section from following a track, at a fraction of what a mesh takes: where sweep() has no mesh to give for it.
 /// @param tolerance  of the mesh that is laid out for it, and laid out finer before anything is said [m]; > 0
+/// @throws InputError if it is not finite and positive
 /// @return where it is, and how far the section may reach there; none where every level leads from the start face to the finish face,
 ///   or where telling would take a mesh of more than half a million triangles or finer than coordinates carry: sweep() tells then
 [[nodiscard]] std::optional<Issue> obstacle_to_sweep(const Centerline& centerline,

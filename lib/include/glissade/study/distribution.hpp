@@ -62,13 +62,16 @@ enum class Sampling {
 /// Identity: of `latin_hypercube`, every interval [k/count, (k+1)/count) holds one sample in each dimension.
 struct UnitCube {
   Sampling sampling = Sampling::sobol;
-  std::uint64_t count = 1;     ///< samples; >= 1
+  std::uint64_t count = 1;     ///< samples; 1 <= count <= kMostSamples
   std::size_t dimensions = 1;  ///< 1 <= dimensions <= kMostDimensions
   std::uint64_t seed = 1;
 
   static constexpr std::size_t kMostDimensions = 64;
+  static constexpr std::uint64_t kMostSamples = std::uint64_t{1}
+                                                << 53U;  // theory: a double tells the shares of as many apart
 
   /// @param sample  0 <= sample < count
+  /// @throws InputError if it, the count or the dimensions are out of their range
   /// @return a coordinate a dimension, each within (0, 1)
   [[nodiscard]] std::vector<double> at(std::uint64_t sample) const;
 };

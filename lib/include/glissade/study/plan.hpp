@@ -22,19 +22,33 @@ struct Input {
   [[nodiscard]] std::string column() const;
 };
 
+/// Values of one unit at equal steps.
+struct Grid {
+  double from = 0.0;
+  double to = 0.0;  ///< the last value, exactly
+  std::uint64_t count = 1;
+
+  /// @param index  0 <= index < count
+  /// @return a finite value; `from` of a single one
+  [[nodiscard]] double at(std::uint64_t index) const;
+};
+
 /// Inputs that change together: the values of one --vary, the rows of a file of points, or samples.
 ///
 /// Shape: `size` settings of `inputs.size()` values each.
 struct Factor {
   std::vector<Input> inputs;
-  std::uint64_t size = 0;                        ///< >= 1
-  std::vector<std::vector<std::string>> values;  ///< one row a setting: texts as for --set; empty for samples
-  std::vector<Distribution> distributions;       ///< of samples, one an input
-  UnitCube cube;                                 ///< of samples
-  std::string text;                              ///< that says all of this again, for the manifest
+  std::uint64_t size = 0;  ///< >= 1
+  /// One row a setting: texts as for --set; empty for grids and samples, whose values are made when they are asked for.
+  std::vector<std::vector<std::string>> values;
+  std::optional<Grid> grid;                 ///< of a grid; `size` values of the one input
+  std::vector<Distribution> distributions;  ///< of samples, one an input
+  UnitCube cube;                            ///< of samples
+  std::string text;                         ///< that says all of this again, for the manifest
 
   /// @param setting  0 <= setting < size
   /// @return the texts of its values, one an input
+  /// @throws InternalError if there is no such setting
   [[nodiscard]] std::vector<std::string> at(std::uint64_t setting) const;
 };
 

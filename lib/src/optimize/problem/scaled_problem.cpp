@@ -606,7 +606,8 @@ void require_valid(const OptimizeOptions& options) {
   number("limit_tolerance", options.limit_tolerance,
          options.limit_tolerance >= 1e-10 && options.limit_tolerance <= 1e-4,
          "1e-10 <= limit_tolerance <= 1e-4");
-  number("time_budget", options.time_budget, options.time_budget > 0.0, "a time budget is positive");
+  number("time_budget", options.time_budget, options.time_budget > 0.0,
+         "a time budget is positive and finite");
   if (!issues.empty()) throw InputError(std::move(issues));
 }
 

@@ -59,7 +59,10 @@ std::optional<Friction> most_friction_of_impact(double share, Angle angle) {
   const double left = math::cos(angle.radians()) - share;
   if (left < 0.0) return {};
   const double into = math::sin(angle.radians());
-  return Friction::from_angle(Angle::from_radians(math::atan2(left, into)));
+  // Of a stream that runs along the floor every friction leaves it: the last friction angle before 90 deg.
+  const Angle last = Angle::from_radians(std::nextafter(kRightAngle, 0.0));
+  if (!(into > 0.0)) return Friction::from_angle(last);
+  return Friction::from_angle(std::min(Angle::from_radians(math::atan2(left, into)), last));
 }
 
 BeltLanding land_on_belt(double exit_speed, Angle slope_angle, const ReceivingBelt& belt, double bulk_density,

@@ -35,6 +35,12 @@ void require_shape(const HoodShape& hood) {
                       "The feed meets the underside at 0 to 90 deg.", "10 deg"});
 }
 
+void require_feed(const Landing& feed) {
+  if (feed.speed > 0.0 && std::isfinite(feed.speed)) return;
+  throw InputError({"", "feed: " + exact_text(feed.speed) + " m/s is not a finite speed above 0",
+                    "A stream that meets a hood moves.", ""});
+}
+
 /// The same stream below the hood: as wide and as high as where its track begins.
 Body below_hood(const Body& body, const BulkStream& stream, double entry_speed) {
   StreamShape shape = stream.shape();
@@ -85,6 +91,7 @@ HoodPassage passage_of(const HoodShape& hood, const Landing& feed, const Body& b
   if (stream == nullptr)
     throw InputError(
         {"", "the body is no stream", "Only a stream passes a hood.", "a body whose law is BulkStream"});
+  require_feed(feed);
   const CenterlinePtr arc = hood_arc(hood, feed);
   // The impact is that on a floor at the same angle to the way.
   Impact impact =

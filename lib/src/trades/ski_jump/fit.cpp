@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace glissade {
 namespace {
@@ -34,17 +36,25 @@ void require_tracks(const std::vector<SpeedReading>& readings) {
   }
 }
 
-double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
+/// @return where the speed was measured [m/s]; none where the body does not come there, or comes to rest there
+std::optional<double> speed_where_measured(const SpeedReading& reading, const Body& body, double gravity) {
   const Motion motion = ride_from(reading.track, reading.from_start, body, gravity);
   const double way = reading.place - reading.from_start;
-  if (motion.distance() >= way) return motion.at(way).speed;
+  if (motion.distance() < way) return {};
+  const double speed = motion.at(way).speed;
+  return speed > 0.0 ? std::optional<double>(speed) : std::nullopt;
+}
+
+double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
+  const std::optional<double> speed = speed_where_measured(reading, body, gravity);
+  if (speed) return *speed;
   throw InputError({"",
                     reading.name + ": with a friction coefficient of " +
                         rounded_text(body.friction.coefficient(), 3) + " and a drag of " +
                         rounded_text(body.drag_per_metre, 3) +
-                        " 1/m the body does not come to where its "
-                        "speed was measured",
-                    "A speed is compared where it was measured.", "less friction to begin with"});
+                        " 1/m the body does not come to where its speed was measured",
+                    "A speed is compared where it was measured.",
+                    "less friction or drag; the place, the gate and the design ridden"});
 }
 
 /// No fit explains a speed that is far beyond free fall: it is of another unit, or of another place.
@@ -104,6 +114,7 @@ class Fit {
   }
 
   SpeedFit run() {
+    come_everywhere();
     iterate();
     SpeedFit fit;
     fit.friction_at_bound = fits_friction_ && hold_if_negative(friction_, fits_friction_);
@@ -123,12 +134,29 @@ class Fit {
     return static_cast<std::size_t>(fits_friction_) + static_cast<std::size_t>(fits_drag_);
   }
 
+  /// @return sum of the squares of the residuals; infinite where a body does not come to its place
   [[nodiscard]] double squares(double friction, double drag) const {
+    constexpr double kBeyond = std::numeric_limits<double>::infinity();
+    constexpr double kMost = 1e4;  // taste: nothing slides that far against more, as coefficient or per metre
+    if (!(friction < kMost && drag < kMost)) return kBeyond;
+    const Body body = with(body_, friction, drag);
     double sum = 0.0;
-    for (const SpeedResidual& one : speed_residuals(readings_, with(body_, friction, drag), gravity_)) {
-      sum += one.excess * one.excess;
+    for (const SpeedReading& reading : readings_) {
+      const std::optional<double> speed = speed_where_measured(reading, body, gravity_);
+      if (!speed) return kBeyond;
+      sum += (*speed - reading.speed) * (*speed - reading.speed);
     }
     return sum;
+  }
+
+  /// Less of what is fitted until every body comes to its place; the reading that none of it helps is told by
+  /// whatever rides next.
+  void come_everywhere() {
+    constexpr int kMostHalvings = 30;  // taste: a billionth of where it begins
+    for (int i = 0; i < kMostHalvings && !std::isfinite(squares(friction_, drag_)); ++i) {
+      if (fits_friction_) friction_ *= 0.5;
+      if (fits_drag_) drag_ *= 0.5;
+    }
   }
 
   [[nodiscard]] Normal normal() const {
@@ -164,30 +192,42 @@ class Fit {
             (-sums.d * sums.ff + sums.f * sums.fd) / determinant};
   }
 
+  [[nodiscard]] static ConvergenceError not_settled() {
+    return ConvergenceError({"", "friction and drag do not settle",
+                             "The speeds tell the two apart too badly.",
+                             "one of the two held at a known value"});
+  }
+
+  /// @return friction and drag after as much of a step as makes nothing worse
+  [[nodiscard]] std::array<double, 2> shortened(const std::array<double, 2>& wanted) const {
+    constexpr double kLeastShare = 1e-6;  // taste: less is rounding
+    const double before = squares(friction_, drag_);
+    for (double share = 1.0; share > 0.0; share *= 0.5) {
+      // A body that pushes itself is beyond the laws: steps end where friction or drag is none. Where one does not come
+      // to its place they went too far, however short they are.
+      const double friction = std::max(friction_ + share * wanted[0], 0.0);
+      const double drag = std::max(drag_ + share * wanted[1], 0.0);
+      const double after = squares(friction, drag);
+      const bool is_shortest = share < kLeastShare && std::isfinite(after);
+      if (after <= before * (1.0 + 1e-12) || is_shortest) return {friction, drag};
+    }
+    throw not_settled();
+  }
+
   void iterate() {
     if (parameters() == 0) return;
     constexpr int kMostRounds = 100;
     constexpr double kSettledFriction = 1e-12;
     constexpr double kSettledDrag = 1e-14;  // [1/m]
     for (int round = 0; round < kMostRounds; ++round) {
-      const std::array<double, 2> wanted = step(normal());
-      const double before = squares(friction_, drag_);
-      // A body that pushes itself is beyond the laws: steps end where friction or drag is none.
-      double share = 1.0;
-      while (share > 1e-6 && squares(std::max(friction_ + share * wanted[0], 0.0),
-                                     std::max(drag_ + share * wanted[1], 0.0)) > before * (1.0 + 1e-12)) {
-        share *= 0.5;
-      }
-      const double friction = std::max(friction_ + share * wanted[0], 0.0);
-      const double drag = std::max(drag_ + share * wanted[1], 0.0);
+      const auto [friction, drag] = shortened(step(normal()));
       const bool settled =
           std::fabs(friction - friction_) <= kSettledFriction && std::fabs(drag - drag_) <= kSettledDrag;
       friction_ = friction;
       drag_ = drag;
       if (settled) return;
     }
-    throw ConvergenceError({"", "friction and drag do not settle", "The speeds tell the two apart too badly.",
-                            "one of the two held at a known value"});
+    throw not_settled();
   }
 
   /// At a bound the value is held; what is left to fit is the other one.

@@ -54,7 +54,8 @@ inline constexpr double kSpeedToKeep =
 [[nodiscard]] Angle steepest_impact(double share, Friction friction);
 /// @param share  of the speed, (0, 1]
 /// @param angle  theta
-/// @return the most friction with which an impact leaves it; none if not even one without friction does
+/// @return the most friction with which an impact leaves it, that of the last friction angle below 90 deg where every one
+///         does (theta = 0); none if not even one without friction does
 [[nodiscard]] std::optional<Friction> most_friction_of_impact(double share, Angle angle);
 
 /// A belt that takes a stream away.

@@ -49,7 +49,7 @@ struct HoodPassage {
 
 /// @param feed     on its way to the hood
 /// @param body     a stream; its channel below the hood is as wide, and its walls as high, as at the start of its track
-/// @throws InputError as hood_arc(), or if the body is no stream
+/// @throws InputError as hood_arc(), or if the body is no stream or the feed has no speed
 [[nodiscard]] HoodPassage pass_hood(const HoodShape& hood, const Landing& feed, const Body& body,
                                     double gravity);
 

@@ -54,8 +54,8 @@ struct SpeedFitOptions {
 /// away is known much better than either.
 /// @param body     everything else about the body: height of the centre of mass, wind
 /// @throws InputError if there are fewer readings than parameters, a reading has no track, is out of its range or a
-///   twentieth above free fall (unless the wind comes from behind), no ride arrives, or rides of one length to one place do not
-///   tell friction and drag apart
+///   twentieth above free fall (unless the wind comes from behind), a body without what is fitted does not come to its
+///   place, or rides of one length to one place do not tell friction and drag apart
 /// @throws ConvergenceError if the iteration does not settle
 [[nodiscard]] SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
                                   const SpeedFitOptions& options = {}, double gravity = kDefaultGravity);
