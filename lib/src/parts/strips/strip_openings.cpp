@@ -103,32 +103,6 @@ class OpeningIssues {
   std::vector<Issue> issues_;
 };
 
-/// Bolts in the middle of the lid's lap, below and above the opening, each on one arc.
-std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const StripWindow& window,
-                           std::vector<double> breaks) {
-  const double hole = clearance_hole(window.bolt, HoleFit::coarse);
-  breaks.insert(breaks.end(), {window.along.from, window.along.to});
-  if (job.widens()) {
-    const std::vector<double> pieces = job.pieces();
-    breaks.insert(breaks.end(), pieces.begin(), pieces.end());
-  }
-  const Span heights = heights_of(job.section, plate);
-  const OnOneArc arcs(job.track, 0.5 * hole, heights, breaks, job.rooms_at_bends(heights));
-  const double out = 0.5 * (window.along.from - window.lid_along.from);
-  const double edge = hole_edge_diameters(job.options.shop) * hole;
-  const Span within{window.lid_along.from + edge, window.lid_along.to - edge};
-  std::vector<double> places;
-  for (const Vec2 at : evenly({window.along.from - out, 0.0}, {window.along.to + out, 0.0}, kPitch)) {
-    const auto place = arcs.nearest(at.x, within);
-    if (place && (places.empty() || *place - places.back() > 2.4 * hole)) places.push_back(*place);
-  }
-  std::vector<Vec2> bolts;
-  for (const double y : {window.across.from - out, window.across.to + out}) {
-    for (const double s : places) bolts.push_back({s, y});
-  }
-  return bolts;
-}
-
 /// What an opening and its lid take of the floor line to either side: lines above it are shorter in valleys, longer on crests, and
 /// what is asked for is the length of the opening's middle line.
 struct Reaches {
@@ -153,13 +127,64 @@ std::optional<double> half_of(const StripJob& job, double at, double height, dou
   return std::nullopt;
 }
 
+double height_at(const SectionPlate& plate, double across) {
+  return (plate.face_from + across * plate.way()).y;
+}
+
+/// The least length of lines along a plate, of what they have on the floor line.
+/// @param along   the stretch
+/// @param across  between which places across the plate
+double least_share(const StripJob& job, const SectionPlate& plate, const Span& along, const Span& across) {
+  double least = 1.0;
+  for (const double place : {across.from, across.to}) {
+    const double lost = job.lost_at(along, height_at(plate, place));
+    least = std::min(least, 1.0 - lost / (along.to - along.from));
+  }
+  return least;
+}
+
 std::optional<Reaches> reaches_at(const StripJob& job, const SectionPlate& plate, double across,
                                   const InspectionOptions& opening, double at) {
-  const double height = (plate.face_from + across * plate.way()).y;
+  const double height = height_at(plate, across);
+  const double lap = lid_lap(opening, job.options.shop);
   const auto half = half_of(job, at, height, opening.length);
-  const auto lid = half_of(job, at, height, opening.length + 2.0 * lid_lap(opening, job.options.shop));
+  const auto lid = half_of(job, at, height, opening.length + 2.0 * lap);
   if (!half || !lid) return std::nullopt;
-  return Reaches{*half, *lid};
+  // Where lines draw together bolts keep off the lid's edges on the shortest of them, too.
+  const double high = 0.5 * opening.height + lap;
+  const double share = least_share(job, plate, {at - *lid, at + *lid}, {across - high, across + high});
+  if (!(share > 0.0)) return std::nullopt;
+  const double edges =
+      2.0 * hole_edge_diameters(job.options.shop) * clearance_hole(opening.bolt, HoleFit::coarse);
+  return Reaches{*half, std::max(*lid, *half + edges / share)};
+}
+
+/// Bolts in the middle of the lid's lap, below and above the opening, each on one arc.
+std::vector<Vec2> bolts_of(const StripJob& job, const SectionPlate& plate, const StripWindow& window,
+                           std::vector<double> breaks) {
+  const double hole = clearance_hole(window.bolt, HoleFit::coarse);
+  breaks.insert(breaks.end(), {window.along.from, window.along.to});
+  if (job.widens()) {
+    const std::vector<double> pieces = job.pieces();
+    breaks.insert(breaks.end(), pieces.begin(), pieces.end());
+  }
+  const Span heights = heights_of(job.section, plate);
+  const OnOneArc arcs(job.track, 0.5 * hole, heights, breaks, job.rooms_at_bends(heights));
+  const double out = 0.5 * (window.along.from - window.lid_along.from);
+  const double up = 0.5 * (window.across.from - window.lid_across.from);
+  const double edge = hole_edge_diameters(job.options.shop) * hole /
+                      least_share(job, plate, window.lid_along, window.lid_across);
+  const Span within{window.lid_along.from + edge, window.lid_along.to - edge};
+  std::vector<double> places;
+  for (const Vec2 at : evenly({window.along.from - out, 0.0}, {window.along.to + out, 0.0}, kPitch)) {
+    const auto place = arcs.nearest(at.x, within);
+    if (place && (places.empty() || *place - places.back() > 2.4 * hole)) places.push_back(*place);
+  }
+  std::vector<Vec2> bolts;
+  for (const double y : {window.across.from - up, window.across.to + up}) {
+    for (const double s : places) bolts.push_back({s, y});
+  }
+  return bolts;
 }
 
 /// A place for an opening, and what it takes there.
