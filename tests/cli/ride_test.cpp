@@ -1,5 +1,6 @@
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
+#include "support/temp_dir.hpp"
 
 #include <string>
 
@@ -64,6 +65,26 @@ TEST_CASE("ride shifts all of a friction that changes along the track by the sam
       glissade_run({"ride", file, "--friction-angle", std::to_string(own) + "deg", "--json"});
   CHECK(json::parse(same.output)["at_frictions"][0]["travel_time_s"].get<double>() ==
         Approx(track["travel_time_s"].get<double>()).epsilon(1e-5));
+}
+
+TEST_CASE(
+    "ride tells of every friction at which some of the track would have none or too much, and rides at "
+    "none") {
+  const TempDir place;
+  const std::string file = (place / "d.yaml").string();
+  put_bytes(file,
+            "glissade: 1\n"
+            "track: {start: {x: 0 m, z: 10 m}}\n"
+            "body: {friction: [{from: 0 m, angle: 20 deg}, {from: 5 m, angle: 8 deg}]}\n"
+            "centerline: {kind: segments, entry_slope_angle: 30 deg, segments: [{length: 10 m}]}\n");
+  const Outcome refused = glissade_run({"ride", file, "--friction-angle", "5deg,25deg,11deg"});
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.empty());
+  CHECK_THAT(refused.errors, Contains(":3:") &&
+                                 Contains("8 deg from 5 m on would be -7 deg with 5 deg at the start") &&
+                                 Contains("would be -1 deg with 11 deg at the start") &&
+                                 !Contains("25 deg") && Contains("Try: at least 12 deg at the start"));
+  CHECK(glissade_run({"ride", file, "--friction-angle", "12deg,25deg"}).exit_code == 0);
 }
 
 TEST_CASE("ride asks for a friction, and names the option that is wrong") {

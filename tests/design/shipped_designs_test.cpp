@@ -96,7 +96,7 @@ probes: [{from_finish: 20 m, name: a}, {from_start: 30 m}, {x: -40 m}]
 void has_one_problem_a_slip(const std::string& text, const std::filesystem::path& file) {
   static const std::regex kQuantity(R"([:\[,] -?[0-9][0-9.]* ?(%|[a-zA-Z][a-zA-Z0-9/^]*)(?=[ ,}\]\n]))");
   for (auto found = std::sregex_iterator(text.begin(), text.end(), kQuantity);
-       found != std::sregex_iterator(); ++found, ++count) {
+       found != std::sregex_iterator(); ++found) {
     const auto unit = static_cast<std::size_t>(found->position(1));
     const std::size_t line = text.rfind('\n', unit) + 1;
     // Neither a comment nor a name, "400 HB".

@@ -254,7 +254,7 @@ Json pipeline::track_document(const Design& given, const Track& track, Told told
   json["centerline"] = word(design.centerline.kind);
   add_ride(json, track.motion);
   if (design.feed) {
-    const std::optional<Impact> impact = impact_of(design, track.motion);
+    const std::optional<Impact> impact = impact_of(track.motion);
     const double entry_speed = enters(track.motion) ? track.motion.body().entry_speed : 0.0;
     json["entry_speed_m_per_s"] = impact ? Json(entry_speed) : Json(nullptr);
     json["feed"] = feed_json(feed_fall(design), impact, entry_speed);
