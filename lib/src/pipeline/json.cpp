@@ -244,6 +244,7 @@ void add_hood(Json& json, const Design& design, const Track& track, const std::o
   json["hood"]["transfer_time_s"] = there ? Json(transfer_time(design, track.motion)) : Json(nullptr);
   const Range spread = landing_spread(design, track);
   json["hood"]["landing_spread_m"] = {*spread.lowest, *spread.highest};
+  json["hood"]["not_converged"] = track.early_hood ? Json(track.early_hood->message) : Json(nullptr);
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ struct LinerLoss {
 /// @return the problem, every broken limit with the place and by how much; none if all are kept
 [[nodiscard]] std::optional<Issue> limits_problem(const Design& design, const Track& track);
 
-/// Whether a search within limits ended before it converged.
+/// Whether a search within limits, or that for a hood, ended before it converged.
 /// @return how it ended and what that means; none if it converged, or there was none
 [[nodiscard]] std::optional<Issue> search_problem(const Design& design, const Track& track);
 
