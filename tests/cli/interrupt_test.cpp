@@ -252,6 +252,21 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("Ctrl-C in the search of a redesign leaves its table and its design, marked so") {
+  const TempDir place;
+  RunningProgram running(
+      glissade_program(),
+      {"redesign", shipped("hills/garmisch_hs142"), "--for", "least-load", "-o", "made.yaml", "-v"},
+      place.path());
+  wait_for("coarse track", running);
+  const int code = running.end_by(SIGINT);
+  INFO(running.errors());
+  CHECK(code == 4);
+  CHECK_THAT(running.errors(), Contains("the search for the free shape ended early: "));
+  CHECK_THAT(running.output(), Contains("free, least-load") && Contains("feasible, not converged"));
+  CHECK_THAT(bytes_of(place / "made.yaml"), Contains("glissade: 1"));
+}
+
 TEST_CASE("a second Ctrl-C ends a build at once, whatever it is at") {
   const TempDir place;
   RunningProgram running(glissade_program(), builds().back(), place.path());
