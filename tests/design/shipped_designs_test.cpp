@@ -99,8 +99,10 @@ void has_one_problem_a_slip(const std::string& text, const std::filesystem::path
        found != std::sregex_iterator(); ++found) {
     const auto unit = static_cast<std::size_t>(found->position(1));
     const std::size_t line = text.rfind('\n', unit) + 1;
-    // Neither a comment nor a name, "400 HB".
-    if (text.find('#', line) < unit || text.find("name:", text.find_last_of("{,\n", unit)) < unit) continue;
+    // Neither a comment nor a name, "400 HB", "Chute, 60 t/h".
+    const std::size_t key = text.rfind(':', unit);
+    const bool is_name = key != std::string::npos && key >= line + 4 && text.compare(key - 4, 4, "name") == 0;
+    if (text.find('#', line) < unit || is_name) continue;
     std::string slipped = text;
     slipped.replace(unit, static_cast<std::size_t>(found->length(1)), "xyz");
     INFO(file.filename().string() << ", line "

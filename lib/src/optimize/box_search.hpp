@@ -29,7 +29,6 @@ struct BoxMinimum {
 /// Of each side of the box.
 inline constexpr double kBoxAccuracy = 1e-3;  // taste
 /// Places that one engine looks at.
-inline constexpr int kMostBoxValues =
-    120;  // budget: twice what three variables took where some hoods lead nowhere
+inline constexpr int kMostBoxValues = 120;  // budget: twice what three variables took
 
 }  // namespace glissade::optimizer
