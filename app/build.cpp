@@ -4,6 +4,7 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
+#include "app/option_value.hpp"
 #include "app/progress_line.hpp"
 #include "app/summary.hpp"
 #include "app/time_budget.hpp"
@@ -57,7 +58,8 @@ Build built(const Design& design, const BuildArguments& options, RunContext cont
   ProgressLine progress(options.verbosity);
   context.progress = progress.callback();
   context.time_budget = options.time_budget.seconds();
-  return build(design, directory_of(options), context, {.report = !options.no_report});
+  return into_directory_of(
+      "-o", [&] { return build(design, directory_of(options), context, {.report = !options.no_report}); });
 }
 
 ExitCode build_once(const BuildArguments& options) {

@@ -356,10 +356,12 @@ Comparison comparison_of(const CompareArguments& options, const Design& design,
   return {heading, task_line(design, endpoints), std::move(entries), std::move(table)};
 }
 
-std::vector<Figure> figures_of(const CompareArguments& options, const Design& design,
-                               const std::vector<Entry>& entries, const RunContext& context) {
-  if (!options.others.empty()) return design_figures(entries);
-  return options.frictions.empty() ? kinds_figures(design, entries, context) : sweep_figures(entries);
+KindsFigures figures_of(const CompareArguments& options, const Design& design,
+                        const std::vector<Entry>& entries, const RunContext& context) {
+  if (options.svg.empty() && options.html.empty()) return {};
+  if (!options.others.empty()) return {design_figures(entries)};
+  if (!options.frictions.empty()) return {sweep_figures(entries)};
+  return kinds_figures(design, entries, context);
 }
 
 std::string page_of(const CompareArguments& options, const Comparison& comparison,
@@ -387,6 +389,21 @@ void write_files(const CompareArguments& options, const Comparison& comparison,
   files.put_in_place();
 }
 
+/// @throws ConvergenceError if a search for a track, or for a point of a figure, ended early
+void require_all_searched(const std::vector<Entry>& entries, const KindsFigures& figures) {
+  for (const Entry& entry : entries) {
+    if (entry.track) require_searched_through(entry.design, *entry.track);
+  }
+  for (const Entry& entry : entries) {
+    if (entry.interrupted) throw ConvergenceError({entry.design.where("limits"), entry.problem, "", ""});
+  }
+  if (!figures.ended_early) return;
+  throw ConvergenceError({entries.front().design.file.string(),
+                          "a search for the figures over friction ended early: points are missing there",
+                          "Each kind that is searched for is searched for at every friction.",
+                          "a larger --time-budget, or no --html and --svg"});
+}
+
 ExitCode compare(const CompareArguments& options) {
   const std::vector<Friction> frictions = frictions_of(options.frictions);
   const Design design =
@@ -394,17 +411,16 @@ ExitCode compare(const CompareArguments& options) {
   if (!options.others.empty() && !frictions.empty()) {
     throw InputError({"--friction-sweep", "it cannot be combined with several designs", "", ""});
   }
-  std::vector<Figure> figures;
+  KindsFigures figures;
   const Comparison comparison = [&] {
     const Interrupt interrupt;
     ProgressLine progress(options.verbosity);
     const RunContext context = interrupt.context(progress.callback(), options.time_budget.seconds());
     Comparison made = comparison_of(options, design, frictions, context);
-    if (!options.svg.empty() || !options.html.empty())
-      figures = figures_of(options, design, made.entries, context);
+    figures = figures_of(options, design, made.entries, context);
     return made;
   }();
-  write_files(options, comparison, figures);
+  write_files(options, comparison, figures.figures);
   const bool files = !(options.svg.empty() && options.html.empty() && options.csv.empty());
   const std::string kept = files ? "The files that were asked for are written." : "";
   if (options.json) {
@@ -414,9 +430,7 @@ ExitCode compare(const CompareArguments& options) {
               comparison.table.text(),
           kept);
   }
-  for (const Entry& entry : comparison.entries) {
-    if (entry.track) require_searched_through(entry.design, *entry.track);
-  }
+  require_all_searched(comparison.entries, figures);
   return ExitCode::done;
 }
 

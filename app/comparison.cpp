@@ -35,8 +35,13 @@ Entry solved(Design design, const RunContext& context) {
   return entry_of(std::move(design), [&](const Design& one) { return solve(one, context); });
 }
 
+/// Whether work goes on that was asked to end: a search has met the request.
+bool goes_on(const RunContext& context) {
+  return context.goes_on_after_stop != nullptr && *context.goes_on_after_stop;
+}
+
 void enter(const RunContext& context, const std::string& stage, std::size_t done, std::size_t all) {
-  if (context.stop.stop_requested()) throw Interrupted({"", "interrupted", "", ""});
+  if (context.stop.stop_requested() && !goes_on(context)) throw Interrupted({"", "interrupted", "", ""});
   if (context.progress) context.progress(stage, static_cast<double>(done) / static_cast<double>(all));
 }
 
@@ -132,20 +137,63 @@ std::vector<double> friction_angles_deg(const Design& design) {
   return angles;
 }
 
-/// A curve that is drawn is the same at every friction: fitting it to measured points takes its time once.
-/// @param own  the entry of the design's own centerline
-Entry at_friction(Design design, const Entry& own) {
-  const CenterlineKind kind = design.centerline.kind;
-  if (!is_drawn(kind) || !own.track) return solved(std::move(design), {});
-  return entry_of(std::move(design),
-                  [&](const Design& one) { return ride(as_solved(one, *own.track), own.track->centerline); });
+/// Whether what was searched for was not found to the end: its figures would tell of the search.
+bool ended_early(const Entry& entry) {
+  if (!entry.track) return entry.interrupted;
+  const Track& track = *entry.track;
+  return (track.search && track.search->ended_early) || (track.early_hood && track.early_hood->ended_early);
+}
+
+/// One kind over friction angles.
+class OverFriction {
+ public:
+  /// @param own  the entry of the design's own centerline
+  OverFriction(const Design& design, CenterlineKind kind, const Entry& own, const RunContext& context)
+      : design_(of_kind(design, kind)), own_(own), context_(context) {
+    context_.progress = {};
+  }
+
+  /// @return none where nothing arrives, or a search ended early; what is searched for is not, once work is to end
+  std::optional<Track> at(double angle_deg) {
+    if (stopped_) return {};
+    Entry entry = entry_of(design_, [&](const Design& design) {
+      return track_of(with_friction(design, Friction::from_angle(Angle::from_degrees(angle_deg))));
+    });
+    if (!ended_early(entry)) return std::move(entry.track);
+    ended_early_ = true;
+    stopped_ = context_.stop.stop_requested();
+    return {};
+  }
+
+  [[nodiscard]] bool was_cut() const { return ended_early_; }
+
+ private:
+  /// A curve that is drawn is the same at every friction: fitting it to measured points takes its time once.
+  [[nodiscard]] Track track_of(const Design& design) const {
+    if (!is_drawn(design.centerline.kind) || !own_.track) return solve(design, context_);
+    return ride(as_solved(design, *own_.track), own_.track->centerline);
+  }
+
+  Design design_;
+  const Entry& own_;
+  RunContext context_;
+  bool ended_early_ = false;
+  bool stopped_ = false;
+};
+
+/// A figure without a point is none.
+bool is_empty(const Figure& figure) {
+  return std::none_of(figure.lines.begin(), figure.lines.end(), [](const FigureLine& line) {
+    return std::any_of(line.ys.begin(), line.ys.end(), [](double y) { return std::isfinite(y); });
+  });
 }
 
 /// Two panels over the friction angle: travel time, and the steepest slope anywhere on the track.
 /// Limits are left aside: a search for each friction would take minutes.
-std::vector<Figure> over_friction(Design design, const Entry& own, const RunContext& context) {
+KindsFigures over_friction(Design design, const Entry& own, const RunContext& context) {
   const std::string aside = design.limits ? ", without limits" : "";
   design = without_limits(std::move(design));
+  design.gates.reset();  // nobody looks at their rides
   const double missing = std::numeric_limits<double>::quiet_NaN();
   Figure time{"Travel time over friction" + aside, "friction angle [deg]", "travel time [s]", {}, {}, false};
   Figure slope{"Steepest slope over friction" + aside,
@@ -154,26 +202,41 @@ std::vector<Figure> over_friction(Design design, const Entry& own, const RunCont
                {},
                {},
                false};
+  KindsFigures made;
   const std::vector<CenterlineKind> kinds = kinds_for(design);
   for (std::size_t index = 0; index < kinds.size(); ++index) {
     const CenterlineKind kind = kinds[index];
     enter(context, "travel times over friction", index, kinds.size());
     FigureLine times{std::string(word(kind)), {}, {}, false};
     FigureLine slopes = times;
+    OverFriction tracks(design, kind, own, context);
     for (const double angle : friction_angles_deg(design)) {
-      Design one = of_kind(design, kind);
-      one.body.friction = Friction::from_angle(Angle::from_degrees(angle));
-      const Entry entry = at_friction(std::move(one), own);
-      const bool arrives = entry.track && entry.track->motion.arrived() && enters(entry.track->motion);
+      const std::optional<Track> track = tracks.at(angle);
+      const bool arrives = track && track->motion.arrived() && enters(track->motion);
       times.xs.push_back(angle);
-      times.ys.push_back(arrives ? entry.track->motion.travel_time() : missing);
+      times.ys.push_back(arrives ? track->motion.travel_time() : missing);
       slopes.xs.push_back(angle);
-      slopes.ys.push_back(entry.track ? entry.track->steepest_slope_angle.degrees() : missing);
+      slopes.ys.push_back(track ? track->steepest_slope_angle.degrees() : missing);
     }
+    made.ended_early = made.ended_early || tracks.was_cut();
     time.lines.push_back(std::move(times));
     slope.lines.push_back(std::move(slopes));
   }
-  return {std::move(time), std::move(slope)};
+  for (Figure* const figure : {&time, &slope}) {
+    if (made.ended_early) figure->title += ", as far as searches came to their end";
+    if (!made.ended_early || !is_empty(*figure)) made.figures.push_back(std::move(*figure));
+  }
+  return made;
+}
+
+/// @throws Interrupted if work was asked to end before any track was there
+void require_any_track(const std::vector<Entry>& entries) {
+  for (const Entry& entry : entries) {
+    if (entry.track) return;
+  }
+  for (const Entry& entry : entries) {
+    if (entry.interrupted) throw Interrupted({entry.design.where("limits"), entry.problem, "", ""});
+  }
 }
 
 }  // namespace
@@ -188,6 +251,9 @@ Entry entry_of(Design design, const std::function<Track(const Design&)>& make) {
     entry.problem = error.issues().front().what;
   } catch (const ConvergenceError& error) {
     entry.problem = error.issues().front().what;
+  } catch (const Interrupted& error) {
+    entry.problem = error.issues().front().what;
+    entry.interrupted = true;
   }
   return entry;
 }
@@ -202,6 +268,7 @@ std::vector<Entry> every_kind(const Design& design, const RunContext& context) {
   const Design searched = of_kind(design, CenterlineKind::fastest);
   if (is_searched(searched)) {
     entries.push_back(solved(searched, context));
+    require_any_track(entries);
     const bool free_finish = design.track.free_finish != FinishKind::point;
     if (free_finish && !entries.back().track) return entries;
     if (free_finish) others = finishing_like(others, *entries.back().track);
@@ -211,6 +278,7 @@ std::vector<Entry> every_kind(const Design& design, const RunContext& context) {
     if (kind == CenterlineKind::fastest) one = without_limits(std::move(one));
     entries.push_back(solved(std::move(one), context));
   }
+  require_any_track(entries);
   return entries;
 }
 
@@ -218,14 +286,14 @@ std::vector<Entry> every_design(std::vector<Design> designs, const RunContext& c
   std::vector<Entry> entries;
   entries.reserve(designs.size());
   for (Design& design : designs) entries.push_back(solved(std::move(design), context));
+  require_any_track(entries);
   return entries;
 }
 
 std::vector<Entry> friction_sweep(const Design& design, const std::vector<Friction>& frictions) {
   std::vector<Entry> entries;
   for (const Friction friction : frictions) {
-    Design swept = of_kind(design, CenterlineKind::constant_speed);
-    swept.body.friction = friction;
+    Design swept = with_friction(of_kind(design, CenterlineKind::constant_speed), friction);
     // The curve is there whether or not a body from rest arrives on it.
     entries.push_back(
         entry_of(std::move(swept), [](const Design& one) { return ride(one, make_centerline(one)); }));
@@ -253,15 +321,15 @@ std::vector<std::string> design_names(const std::vector<Entry>& entries) {
   return names;
 }
 
-std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries,
-                                  const RunContext& context) {
+KindsFigures kinds_figures(const Design& design, const std::vector<Entry>& entries,
+                           const RunContext& context) {
   const std::vector<FigureRide> rides = rides_of(entries, entry_name);
-  std::vector<Figure> figures = {ride_figure(RideQuantity::profile, rides),
-                                 ride_figure(RideQuantity::speed, rides)};
   // A free finish is by now where the track within the limits ends.
   const Design fixed = of_kind(entries.back().design, design.centerline.kind);
-  for (Figure& figure : over_friction(fixed, entries.front(), context)) figures.push_back(std::move(figure));
-  return figures;
+  KindsFigures made = over_friction(fixed, entries.front(), context);
+  made.figures.insert(made.figures.begin(),
+                      {ride_figure(RideQuantity::profile, rides), ride_figure(RideQuantity::speed, rides)});
+  return made;
 }
 
 std::vector<Figure> sweep_figures(const std::vector<Entry>& entries) {

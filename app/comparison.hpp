@@ -15,6 +15,7 @@ struct Entry {
   Design design;
   std::optional<Track> track;
   std::string problem;
+  bool interrupted = false;  ///< asked to end before there was a track
 };
 
 /// @return the kind as the design file names it; "fastest in limits" where it is searched for within them
@@ -24,23 +25,34 @@ struct Entry {
 ///         the file lies as tells them apart: "a/chute", "Chute (b/chute)"
 [[nodiscard]] std::vector<std::string> design_names(const std::vector<Entry>& entries);
 
-/// @param make  may throw what a design that cannot be built throws; it becomes the entry's problem
+/// @param make  may throw what a design that cannot be built, or work that is asked to end, throws; it becomes the entry's
+///              problem
 [[nodiscard]] Entry entry_of(Design design, const std::function<Track(const Design&)>& make);
 
 /// The design with a centerline of every kind that two points define, its own first where it is a drawn one.
 /// With limits the fastest track comes twice: within them and, second, without; all other kinds are held
 /// against them. A free finish is then where the track within the limits ends.
+/// @throws Interrupted if it is asked to end before there is any track
 [[nodiscard]] std::vector<Entry> every_kind(const Design& design, const RunContext& context);
 
 /// Each design with its own track.
+/// @throws Interrupted as every_kind()
 [[nodiscard]] std::vector<Entry> every_design(std::vector<Design> designs, const RunContext& context);
 
 /// The constant-speed curve of the design at each friction.
+/// @throws InputError as with_friction()
 [[nodiscard]] std::vector<Entry> friction_sweep(const Design& design, const std::vector<Friction>& frictions);
 
+/// Figures, and whether a search for them ended early: its points are missing there.
+struct KindsFigures {
+  std::vector<Figure> figures;
+  bool ended_early = false;
+};
+
 /// Shapes and speeds of every kind, travel time and steepest slope of each over friction.
-[[nodiscard]] std::vector<Figure> kinds_figures(const Design& design, const std::vector<Entry>& entries,
-                                                const RunContext& context);
+/// @throws Interrupted if it is asked to end while nothing is searched for
+[[nodiscard]] KindsFigures kinds_figures(const Design& design, const std::vector<Entry>& entries,
+                                         const RunContext& context);
 
 /// The curves of a friction sweep, drawn as the paper draws its figure 1.
 [[nodiscard]] std::vector<Figure> sweep_figures(const std::vector<Entry>& entries);

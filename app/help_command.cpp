@@ -5,6 +5,7 @@
 #include "app/console.hpp"
 #include "app/help.hpp"
 #include "app/man_page.hpp"
+#include "app/option_value.hpp"
 #include "app/output_files.hpp"
 #include "app/usage_problem.hpp"
 
@@ -54,7 +55,7 @@ void write_man_pages(const CLI::App& program, const std::filesystem::path& direc
 
 ExitCode help(const CLI::App& program, const HelpArguments& options) {
   if (!options.directory.empty()) {
-    write_man_pages(program, options.directory);
+    into_directory_of("--man-pages", [&] { write_man_pages(program, options.directory); });
     return ExitCode::done;
   }
   const CLI::App* asked = &program;

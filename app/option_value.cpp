@@ -29,4 +29,13 @@ double option_value(const std::string& text, Dimension dimension, const std::str
   }
 }
 
+std::vector<Issue> with_directory_option(std::vector<Issue> issues, const std::string& option) {
+  const std::string advice = "another directory";
+  for (Issue& issue : issues) {
+    const bool advised = issue.hint == advice || issue.hint.starts_with(advice + ",");
+    if (advised) issue.hint.insert(advice.size(), " with " + option);
+  }
+  return issues;
+}
+
 }  // namespace glissade::app

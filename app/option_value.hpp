@@ -5,6 +5,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -32,6 +33,22 @@ auto at_option(const std::string& option, Make&& make) {
     Issue issue = error.issues().front();
     if (issue.where.empty() && !issue.what.starts_with(option)) issue.where = option;
     throw InputError(issue);
+  }
+}
+
+/// @return problems with the option that gives the directory where they advise another one: "another directory with -d, or free
+///         space"
+[[nodiscard]] std::vector<Issue> with_directory_option(std::vector<Issue> issues, const std::string& option);
+
+/// Calls `make`, which writes into a directory; what it throws names the option for another one.
+template <typename Make>
+auto into_directory_of(const std::string& option, Make&& make) {
+  try {
+    return std::forward<Make>(make)();
+  } catch (const FileError& error) {
+    throw FileError(with_directory_option(error.issues(), option));
+  } catch (const InputError& error) {
+    throw InputError(with_directory_option(error.issues(), option));
   }
 }
 

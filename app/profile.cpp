@@ -94,7 +94,7 @@ ExitCode draw_profile(const ProfileArguments& options) {
                                            : std::filesystem::path(options.directory);
   const std::vector<std::filesystem::path> files = [&] {
     const Interrupt interrupt;  // who ends it then finds all of the files, or none
-    return write_profile(folder, design, track, wanted);
+    return into_directory_of("-d", [&] { return write_profile(folder, design, track, wanted); });
   }();
   print(
       labelled("Section", files[0].generic_string()) + labelled("Sheets", files[1].generic_string()) +

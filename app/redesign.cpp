@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -141,7 +142,10 @@ std::string prices_text(const Redesign& found) {
 /// What holds the free shape back, to the beginning of the table.
 std::string free_text(const Redesign& found) {
   if (!found.search || found.shapes.back().track == nullptr) return "";
-  std::string text = found.search->message;
+  const bool optimal = found.search->status == OptimizeStatus::optimal;
+  std::string text =
+      (optimal ? std::string() : emphasised(to_text(found.search->status), Emphasis::bad) + ": ") +
+      found.search->message;
   for (const ActiveLimit& active : found.search->active) {
     // Those of the take-off are told with the letters, table included.
     if (active.limit.id == LimitId::exit_slope_angle || active.limit.id == LimitId::exit_speed) continue;
@@ -174,16 +178,38 @@ std::string area_text(const Redesign& found) {
   return text.empty() ? "" : labelled("Start area", text);
 }
 
-void write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
-  if (options.output.empty()) return;
+/// @return what was written
+std::string write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
+  const bool is_there = options.letters || found.shapes.back().track != nullptr;
+  if (options.output.empty() || !is_there) return "";
   Design made = moved_to(redesigned(design, found, !options.letters), options.output);
   const std::string of = design.name.empty() ? std::string("an in-run") : design.name;
   made.name = of + ", redesigned";
+  const char* const which = options.letters               ? "by its letters"
+                            : found.shapes.back().letters ? "the best shape that is known"
+                                                          : "the shape that a search found";
   OutputFiles files;
-  files.set().put(options.output, "# " + of + " for the same take-off speed within the rules, " +
-                                      (options.letters ? "by its letters" : "the shape that a search found") +
+  files.set().put(options.output, "# " + of + " for the same take-off speed within the rules, " + which +
                                       ".\n" + design_text(made));
   files.put_in_place();
+  return "The design is written, as " + options.output + ".";
+}
+
+std::string table_text(const Design& design, const Redesign& found) {
+  const std::string heading = design.name.empty() ? std::string("In-run") : design.name;
+  return emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
+         ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
+         rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
+         "\n" + prices_text(found) + free_text(found) + breaks_text(found) + area_text(found);
+}
+
+/// @throws ConvergenceError, or InfeasibleError where no free shape keeps what is asked for
+void require_found(const Design& design, const Redesign& found) {
+  std::optional<Issue> problem = found.search_problem();
+  if (!problem) return;
+  problem->where = design.where("centerline");
+  if (found.search && found.search->status == OptimizeStatus::infeasible) throw InfeasibleError(*problem);
+  throw ConvergenceError(*problem);
 }
 
 ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options) {
@@ -198,20 +224,10 @@ ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options
     ProgressLine progress(options.verbosity);
     return redesign(design, asked, interrupt.context(progress.callback(), options.time_budget.seconds()));
   }();
-  write_design(options, design, found);
-  const std::string kept = options.output.empty() ? "" : "The design is written, as " + options.output + ".";
-  if (options.json) {
-    print(redesign_json(design, found), kept);
-  } else {
-    const std::string heading = design.name.empty() ? std::string("In-run") : design.name;
-    print(emphasised(heading, Emphasis::heading) + "\n  take-off speed " + speed_text(found.take_off.speed) +
-              ", friction " + rounded_text(found.take_off.body.friction.coefficient(), 4) + ", drag " +
-              rounded_text(found.take_off.body.drag_per_metre, 4) + " 1/m\n\n" + shapes_table(found).text() +
-              "\n" + prices_text(found) + free_text(found) + breaks_text(found) + area_text(found),
-          kept);
-  }
-  const bool whole = found.shapes.back().track != nullptr;
-  return whole ? ExitCode::done : ExitCode::not_converged;
+  const std::string kept = write_design(options, design, found);
+  print(options.json ? redesign_json(design, found) : table_text(design, found), kept);
+  require_found(design, found);
+  return ExitCode::done;
 }
 
 }  // namespace
@@ -235,7 +251,9 @@ void add_redesign(CLI::App& program, Action& action) {
       .add_option("--curvature-rate", options->rate,
                   "How fast the curvature of the free shape may grow [default: as in the certificate's bend]")
       ->type_name("RATE");
-  command.add_option("-o,--output", options->output, "Write the free shape as a design of kind segments")
+  command
+      .add_option("-o,--output", options->output,
+                  "Write the free shape as a design of kind segments, or in-run if letters make it")
       ->type_name("FILE");
   command.add_flag("--letters", options->letters,
                    "Write the certificate's letters within the rules instead, a design of kind in-run");

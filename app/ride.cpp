@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -29,9 +30,9 @@ constexpr const char* kRideDescription =
     "here then rides that same track: time, speeds, loads, how far it is from a stall, and the limits held\n"
     "against that friction alone. Where friction changes along the track the one given is that of the "
     "start,\n"
-    "and the others change by the same angle. A ride that ends early or breaks a limit is a result: the "
-    "exit\n"
-    "code is 0.";
+    "and the others change by the same angle; one that would leave 0 to 89.994 deg so is refused. A ride "
+    "that\n"
+    "ends early or breaks a limit is a result: the exit code is 0.";
 
 constexpr const char* kRideFooter =
     "Examples:\n"
@@ -82,6 +83,19 @@ std::vector<Friction> frictions_of(const RideArguments& options) {
                     "--friction-angle 14deg,16deg,18deg"});
 }
 
+/// Tells of every friction that the design cannot be ridden at, before its track is searched for.
+void require_rideable(const Design& design, const std::vector<Friction>& frictions) {
+  std::vector<Issue> issues;
+  for (const Friction& friction : frictions) {
+    try {
+      static_cast<void>(with_friction(design, friction));
+    } catch (const InputError& error) {
+      issues.insert(issues.end(), error.issues().begin(), error.issues().end());
+    }
+  }
+  if (!issues.empty()) throw InputError(std::move(issues));
+}
+
 std::string limits_at(const Track& ride) {
   std::string broken;
   for (const LimitCheck& check : ride.limit_checks) {
@@ -108,6 +122,7 @@ std::string rides_summary(const Design& design, const Track& track, const std::v
 ExitCode ride_track(const RideArguments& options) {
   const std::vector<Friction> frictions = frictions_of(options);
   const Design design = read_design(options.design, options.overrides.values());
+  require_rideable(design, frictions);
   const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   std::vector<Track> rides;
   rides.reserve(frictions.size());

@@ -114,6 +114,8 @@ std::string hood_lines(const Design& design, const Track& track) {
     text += "\n" + quantity_text(transfer_time(design, track.motion), Dimension::time) +
             " from the pulley to the finish";
   }
+  if (track.early_hood)
+    text += "\n" + emphasised("not converged", Emphasis::bad) + ": " + track.early_hood->message;
   return labelled("Hood", text);
 }
 

@@ -96,20 +96,33 @@ Table places_table(const Survey& survey) {
   return table;
 }
 
-std::string rides_text(const SurveyRides& rides) {
+/// What of the profile as built lies off the ends of the design, which no ride is on.
+std::string left_out_text(const Survey& survey) {
+  constexpr double kLeast = 1e-3;  // taste: a reading or two [m]
+  std::string text;
+  const auto add = [&](double length, const char* where) {
+    if (length > kLeast) text += (text.empty() ? "" : " and ") + length_text(length, 3) + where;
+  };
+  add(survey.before_start, " before the start");
+  add(survey.beyond_end, " beyond the end");
+  return text.empty() ? "" : "\nwithout what was built " + text + " of the design";
+}
+
+std::string rides_text(const Survey& survey, const SurveyRides& rides) {
   const Motion& built = rides.as_built;
   if (!built.arrived()) return emphasised("does not arrive", Emphasis::bad) + " on the profile as built";
   if (rides.designed.distance() < rides.to) return "the designed ride does not come to the last point";
   const double designed = rides.designed.at(rides.to).speed;
   const double load = built.highest_load().normal_load;
-  const double designed_load = rides.designed.highest_load().normal_load;
+  const double designed_load = rides.designed_there.highest_load().normal_load;
   const double change = built.exit_speed() - designed;
-  return speed_text(built.exit_speed()) + " at the last point, designed " + speed_text(designed) + ": " +
-         (change < 0.0 ? "" : "+") + rounded_text(change, 2) + " m/s\nload " + load_text(load) +
-         " at most, designed " + load_text(designed_load) +
+  return speed_text(built.exit_speed()) + (survey.beyond_end > 0.0 ? " at the end" : " at the last point") +
+         ", designed " + speed_text(designed) + ": " + (change < 0.0 ? "" : "+") + rounded_text(change, 2) +
+         " m/s\nload " + load_text(load) + " at most, designed " + load_text(designed_load) +
          (rides.from > 0.0 ? "\nfrom the first point on, " + length_text(rides.from) +
                                  " down the track, at the designed speed"
-                           : "");
+                           : "") +
+         left_out_text(survey);
 }
 
 /// Points within reach of the track, but off its ends by more than the tolerance.
@@ -143,7 +156,8 @@ std::string survey_summary(const Design& design, const Survey& survey, const Sur
     gaps += (gaps.empty() ? "" : "\n") + std::string("no point from ") + length_text(gap.from) + " to " +
             length_text(gap.to);
   }
-  return text + beyond_text(survey, options) + labelled("Gaps", gaps) + labelled("Ride", rides_text(rides));
+  return text + beyond_text(survey, options) + labelled("Gaps", gaps) +
+         labelled("Ride", rides_text(survey, rides));
 }
 
 ExitCode survey(const SurveyArguments& options) {

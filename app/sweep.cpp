@@ -6,6 +6,7 @@
 #include "app/command_line.hpp"
 #include "app/console.hpp"
 #include "app/interrupt.hpp"
+#include "app/option_value.hpp"
 #include "app/output_files.hpp"
 #include "app/progress_line.hpp"
 #include "app/sweep_text.hpp"
@@ -263,7 +264,7 @@ ExitCode sweep_design(const CLI::App& command, const SweepArguments& given) {
   require(!options.design.empty(), {"", "a design file is missing", "", "glissade sweep --help"});
   const study::Study study = study_of(options);
   const fs::path directory = directory_of(options);
-  if (options.slurm) return write_batch(options, study, directory);
+  if (options.slurm) return into_directory_of("-o", [&] { return write_batch(options, study, directory); });
   study::RunOptions run_options;
   run_options.directory = directory;
   if (!options.shard.empty()) run_options.shard = study::Shard::parse(options.shard);
@@ -273,7 +274,7 @@ ExitCode sweep_design(const CLI::App& command, const SweepArguments& given) {
   const study::RunReport report = [&] {
     ProgressLine progress(options.verbosity);
     run_options.progress = progress.callback();
-    return study::run(study, run_options);
+    return into_directory_of("-o", [&] { return study::run(study, run_options); });
   }();
   if (!options.verbosity.quiet())
     print(run_text(report, directory.string()), "The rows are written, into " + directory.string() + ".");

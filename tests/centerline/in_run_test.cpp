@@ -257,4 +257,15 @@ TEST_CASE("the part of a track from a place on is that track, moved") {
   CHECK(TrackFrom(whole, 30.0).breaks().size() == 3);
   CHECK_THROWS_AS(TrackFrom(whole, whole->length()), InputError);
   CHECK_THROWS_AS(TrackFrom(nullptr, 0.0), InputError);
+  const TrackFrom middle(whole, 10.0, 60.0);
+  CHECK(middle.length() == 50.0);
+  CHECK(middle.breaks().size() == 3);
+  CHECK(middle.breaks().back() == 50.0);
+  for (const double s : {0.0, 20.0, 50.0}) {
+    CHECK(middle.at(s).x == part.at(s).x);
+    CHECK(middle.at(s).curvature == part.at(s).curvature);
+  }
+  CHECK_THROWS_AS(middle.at(50.1), InputError);
+  for (const double end : {10.0, 5.0, whole->length() + 1e-6})
+    CHECK_THROWS_WITH(TrackFrom(whole, 10.0, end), Contains("from 10 m on cannot end at"));
 }

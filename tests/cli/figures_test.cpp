@@ -3,7 +3,11 @@
 #include "support/temp_dir.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 using Catch::Matchers::Contains;
 using Catch::Matchers::StartsWith;
@@ -143,4 +147,37 @@ TEST_CASE("a comparison of a design with limits draws its curves over friction w
   INFO(outcome.errors);
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(bytes_of(place / "figures.svg"), Contains("Travel time over friction, without limits"));
+}
+
+TEST_CASE("times over friction tell of friction that changes along the track as ride does") {
+  const TempDir place;
+  const auto figures = [&](const std::string& friction) {
+    put_bytes(
+        place / "d.yaml",
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 10 m}}\nbody: {friction: [" + friction +
+            "]}\ncenterline: {kind: segments, entry_slope_angle: 30 deg, segments: [{length: 10 m}]}\n");
+    const Outcome outcome =
+        glissade_run({"compare", (place / "d.yaml").string(), "--svg", (place / "f.svg").string()});
+    INFO(outcome.errors);
+    REQUIRE(outcome.exit_code == 0);
+    return bytes_of(place / "f.svg");
+  };
+  // The first long line below the title is that of the design's own kind: as many heights as points.
+  const std::string svg = figures("{from: 0 m, angle: 20 deg}, {from: 5 m, angle: 8 deg}");
+  std::size_t at = svg.find("Travel time over friction");
+  REQUIRE(at != std::string::npos);
+  std::string line;
+  while (line.size() < 100) {
+    at = svg.find("class=\"line\"", at + 1);
+    REQUIRE(at != std::string::npos);
+    const std::size_t from = svg.find(" d=\"", at) + 4;
+    line = svg.substr(from, svg.find('"', from) - from);
+  }
+  std::istringstream points(line.substr(1));
+  std::set<std::string> heights;
+  std::size_t number = 0;
+  for (std::string x, y; std::getline(points, x, ' ') && std::getline(points, y, 'L'); ++number)
+    heights.insert(y);
+  CHECK(number > 20);
+  CHECK(heights.size() == number);
 }

@@ -216,6 +216,57 @@ TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so 
   CHECK(ended.time <= kPatience);
 }
 
+TEST_CASE(
+    "Ctrl-C in any search of a comparison leaves its table and the files that were asked for, marked so") {
+  struct Case {
+    std::vector<std::string> designs;
+    std::string step;
+    std::string told;
+  };
+  const std::vector<Case> cases = {
+      {{shipped("ore_transfer")}, "choosing the hood, try 3", "the search for the hood ended early: stopped"},
+      // Past the tracks themselves, where those of the figures are searched for.
+      {{shipped("ore_transfer")},
+       "travel times over friction",
+       "a search for the figures over friction ended early"},
+      {{shipped("grain_chute"), shipped("ore_transfer")},
+       "choosing the hood",
+       "the search for the hood ended early: stopped"}};
+  for (const Case& item : cases) {
+    INFO(item.step);
+    const TempDir place;
+    std::vector<std::string> arguments = {"compare"};
+    arguments.insert(arguments.end(), item.designs.begin(), item.designs.end());
+    arguments.insert(arguments.end(),
+                     {"--html", "page.html", "--svg", "figures.svg", "--csv", "curves.csv", "-v"});
+    RunningProgram running(glissade_program(), arguments, place.path());
+    wait_for(item.step, running);
+    const int code = running.end_by(SIGINT);
+    INFO(running.errors());
+    CHECK(code == 4);
+    CHECK_THAT(running.errors(), Contains(item.told) && Contains("--time-budget"));
+    CHECK_THAT(running.output(), Contains("travel time") && Contains(" s  "));
+    CHECK_THAT(bytes_of(place / "page.html"), Contains("</html>"));
+    CHECK_THAT(bytes_of(place / "figures.svg"), Contains("Profile"));
+    CHECK_THAT(bytes_of(place / "curves.csv"), Contains("ore_transfer.yaml,"));
+  }
+}
+
+TEST_CASE("Ctrl-C in the search of a redesign leaves its table and its design, marked so") {
+  const TempDir place;
+  RunningProgram running(
+      glissade_program(),
+      {"redesign", shipped("hills/garmisch_hs142"), "--for", "least-load", "-o", "made.yaml", "-v"},
+      place.path());
+  wait_for("coarse track", running);
+  const int code = running.end_by(SIGINT);
+  INFO(running.errors());
+  CHECK(code == 4);
+  CHECK_THAT(running.errors(), Contains("the search for the free shape ended early: "));
+  CHECK_THAT(running.output(), Contains("free, least-load") && Contains("feasible, not converged"));
+  CHECK_THAT(bytes_of(place / "made.yaml"), Contains("glissade: 1"));
+}
+
 TEST_CASE("a second Ctrl-C ends a build at once, whatever it is at") {
   const TempDir place;
   RunningProgram running(glissade_program(), builds().back(), place.path());

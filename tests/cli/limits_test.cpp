@@ -344,6 +344,21 @@ TEST_CASE("a search that runs out of time says so, with exit code 4") {
   const json track = solved(simple);
   for (const auto& [key, value] : track.items()) CHECK(none.contains(key));
   CHECK(solve(file, {"--time-budget", "-1s"}).exit_code == 2);
+  // So do searches that are made of searches.
+  const std::string hill = shipped("hills/garmisch_hs142");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"solve", shipped("ore_transfer")},
+                                             {"compare", shipped("ore_transfer")},
+                                             {"redesign", hill},
+                                             {"redesign", hill, "--for", "least-load"}}) {
+    std::vector<std::string> briefly = arguments;
+    briefly.insert(briefly.end(), {"--time-budget", "1ms"});
+    const Outcome early = glissade_run(briefly);
+    INFO(arguments[0] << "\n" << early.errors);
+    CHECK(early.exit_code == 4);
+    CHECK_THAT(early.errors, Contains("ended early: ") && Contains("Try: a larger --time-budget"));
+    CHECK_FALSE(early.output.empty());
+  }
   // Commands that draw or judge what the search found say so, too, once they have done it.
   const TempDir place;
   const auto asked = [&](std::vector<std::string> arguments) {

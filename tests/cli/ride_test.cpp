@@ -1,12 +1,18 @@
 #include "cli/glissade.hpp"
 #include "support/catch.hpp"
+#include "support/temp_dir.hpp"
 
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 using Catch::Matchers::Contains;
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 TEST_CASE("the summary of a design with a friction range shows every friction, and limits where they bind") {
   const Outcome outcome = glissade_run({"solve", shipped("grain_chute_with_limits")});
@@ -66,6 +72,26 @@ TEST_CASE("ride shifts all of a friction that changes along the track by the sam
         Approx(track["travel_time_s"].get<double>()).epsilon(1e-5));
 }
 
+TEST_CASE(
+    "ride tells of every friction at which some of the track would have none or too much, and rides at "
+    "none") {
+  const TempDir place;
+  const std::string file = (place / "d.yaml").string();
+  put_bytes(file,
+            "glissade: 1\n"
+            "track: {start: {x: 0 m, z: 10 m}}\n"
+            "body: {friction: [{from: 0 m, angle: 20 deg}, {from: 5 m, angle: 8 deg}]}\n"
+            "centerline: {kind: segments, entry_slope_angle: 30 deg, segments: [{length: 10 m}]}\n");
+  const Outcome refused = glissade_run({"ride", file, "--friction-angle", "5deg,25deg,11deg"});
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.empty());
+  CHECK_THAT(refused.errors, Contains(":3:") &&
+                                 Contains("8 deg from 5 m on would be -7 deg with 5 deg at the start") &&
+                                 Contains("would be -1 deg with 11 deg at the start") &&
+                                 !Contains("25 deg") && Contains("Try: at least 12 deg at the start"));
+  CHECK(glissade_run({"ride", file, "--friction-angle", "12deg,25deg"}).exit_code == 0);
+}
+
 TEST_CASE("ride asks for a friction, and names the option that is wrong") {
   const Outcome none = glissade_run({"ride", shipped("grain_chute")});
   CHECK(none.exit_code == 2);
@@ -98,4 +124,33 @@ TEST_CASE("the JSON of limits that no track keeps has every key of a track") {
   }
   CHECK(without["travel_time_s"] == nullptr);
   CHECK(with["search"]["conflict"] == nullptr);
+}
+
+TEST_CASE(
+    "survey of the upper part tells the load that it is designed for there, and what lies before the start") {
+  const std::string hill = shipped("hills/garmisch_hs142");
+  const std::string points = bytes_of(fs::path(hill).parent_path() / "garmisch_survey.csv");
+  std::size_t end = 0;
+  for (int line = 0; line < 16; ++line) end = points.find('\n', end) + 1;
+  const TempDir place;
+  const std::string file = (place / "top.csv").string();
+  // 0.9 m before the start, on the line of the track.
+  put_bytes(file, points.substr(0, end) + "Z0,-90.9265,47.7189\n");
+  const std::vector<std::string> arguments = {"survey", hill, file, "--offset", "120mm"};
+  const Outcome text = glissade_run(arguments);
+  INFO(text.output);
+  CHECK(text.exit_code == 1);  // most of the track has no points
+  CHECK_THAT(text.output, Contains("Z0 lies 90") && Contains("before the start, and is held against it") &&
+                              Contains("without what was built 90") &&
+                              Contains("before the start of the design"));
+  std::vector<std::string> as_json = arguments;
+  as_json.emplace_back("--json");
+  const json told = json::parse(glissade_run(as_json).output);
+  CHECK(told["from_m"] == 0.0);
+  CHECK(told["before_start_m"].get<double>() == Approx(0.9).margin(0.01));
+  // Straight down at 35 deg: g cos, far below what the bend asks for.
+  CHECK(told["designed_max_normal_load_m_per_s2"].get<double>() ==
+        Approx(9.81 * std::cos(35.0 * std::acos(-1.0) / 180.0)).epsilon(1e-6));
+  CHECK(told["as_built"]["exit_speed_m_per_s"].get<double>() ==
+        Approx(told["designed_speed_at_end_m_per_s"].get<double>()).epsilon(1e-3));
 }

@@ -320,9 +320,9 @@ TEST_CASE("no file of a build takes the place of one that its design reads, by w
     const Outcome outcome = glissade_run(item.command, {directory, {}, {}});
     INFO(outcome.errors);
     CHECK(outcome.exit_code == 2);
-    CHECK_THAT(outcome.errors, Contains(item.told_at) &&
-                                   Contains(item.read + " is read by this command, too") &&
-                                   Contains("Try: another directory for the files, or another name for"));
+    CHECK_THAT(outcome.errors,
+               Contains(item.told_at) && Contains(item.read + " is read by this command, too") &&
+                   Contains("Try: another directory with " + item.command[2] + ", or another name for"));
     CHECK(bytes_of(directory / item.read) == held);
     CHECK(place.names() == before);
   }
@@ -552,4 +552,30 @@ TEST_CASE("fit: speeds that tell nothing apart are told with their file") {
   const Outcome outcome = glissade_run({"fit", (place / "speeds.csv").string(), hill});
   CHECK(outcome.exit_code == 2);
   CHECK_THAT(outcome.errors, Contains("speeds.csv: these speeds do not tell friction and drag apart"));
+}
+
+TEST_CASE("what cannot be written into a directory is advised another one by the command's own option") {
+  const TempDir place;
+  put_bytes(place / "file", "");
+  const std::vector<std::vector<std::string>> commands = {
+      {"build", shipped("grain_chute"), "-o"},
+      {"profile", shipped("hills/garmisch_hs142"), "-d"},
+      {"sweep", shipped("grain_chute"), "--vary", "body.friction_angle=10deg:12deg:3", "-o"},
+      {"sweep", shipped("grain_chute"), "--slurm", "--vary", "body.friction_angle=10deg:12deg:3", "-o"},
+      {"help", "--man-pages"}};
+  for (std::vector<std::string> command : commands) {
+    const std::string option = command.back();
+    // Below a file there is no directory, and a file is none.
+    for (const char* const path : {"file/below", "file"}) {
+      std::vector<std::string> arguments = command;
+      arguments.push_back((place / path).string());
+      const Outcome outcome = glissade_run(arguments);
+      INFO(command.front() << " " << option << " " << path << "\n" << outcome.errors);
+      CHECK(outcome.exit_code == 5);
+      CHECK_THAT(outcome.errors, Contains("file") && Contains("Try: another directory with " + option));
+      // No other option is named than those that there are.
+      const Outcome help = glissade_run({command.front(), "--help"});
+      CHECK_THAT(help.output, Contains(option));
+    }
+  }
 }

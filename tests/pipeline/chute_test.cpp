@@ -10,7 +10,10 @@
 #include "support/paths.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -80,6 +83,60 @@ TEST_CASE("feed and discharge of a straight spoon, by hand") {
   CHECK(belt["speed_along_belt_m_per_s"].get<double>() == Approx(exit * std::cos(slope)).epsilon(1e-12));
   CHECK(belt["speed_into_belt_m_per_s"].get<double>() ==
         Approx(std::sqrt(std::pow(exit * std::sin(slope), 2) + 2.0 * 9.81 * 0.3)).epsilon(1e-12));
+}
+
+namespace {
+
+/// The cases of one flow, by friction, all they tell flattened.
+std::vector<json> cases_of(const std::string& text, const std::string& flow) {
+  const Design design = parse_design(text, "d.yaml");
+  const json document = json::parse(track_json(design, solve(design)));
+  std::vector<json> cases;
+  for (json one : document["cases"]) {
+    if (one["flow"] != flow) continue;
+    one.erase("flow");
+    cases.push_back(one.flatten());
+  }
+  return cases;
+}
+
+}  // namespace
+
+TEST_CASE("each case is told as the nominal stream of a design that is written with its flow and density") {
+  const std::string range = "friction_angle: {low: 24 deg, nominal: 27 deg, high: 31 deg}";
+  const std::string hood = "hood: {radius: 0.7 m, impact_angle: 15 deg, exit_angle: 70 deg, drop: 300 mm}\n";
+  const std::string fast = replaced(spoon("", range), "belt_speed: 2 m/s, pulley_radius: 300 mm, drop: 1 m",
+                                    "belt_speed: 3.2 m/s, pulley_radius: 400 mm, drop: 150 mm");
+  for (const std::string& chute : {spoon("", range), fast + hood}) {
+    const auto with = [&](const std::string& stream) {
+      return replaced(chute, "mass_flow: 100 t/h, bulk_density: 1600 kg/m^3", stream);
+    };
+    const std::string ranged = with(
+        "mass_flow: 100 t/h, surge: 1.5, trickle: 0.25, bulk_density: {low: 1400 kg/m^3, nominal: 1600 "
+        "kg/m^3, high: 1800 kg/m^3}");
+    // A surge is at the lowest density, the others at the nominal one.
+    for (const auto& [flow, stream] : std::vector<std::pair<std::string, std::string>>{
+             {"surge", "mass_flow: 150 t/h, bulk_density: 1400 kg/m^3"},
+             {"trickle", "mass_flow: 25 t/h, bulk_density: 1600 kg/m^3"},
+             {"nominal", "mass_flow: 100 t/h, bulk_density: 1600 kg/m^3"}}) {
+      const std::vector<json> cases = cases_of(ranged, flow);
+      const std::vector<json> written = cases_of(with(stream + ", surge: 1, trickle: 1"), "nominal");
+      REQUIRE(cases.size() == 3);
+      REQUIRE(written.size() == 3);
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        REQUIRE(cases[i].size() == written[i].size());
+        CHECK(cases[i].contains("/discharge/belt_wear_w_per_m2"));
+        for (const auto& [key, value] : cases[i].items()) {
+          INFO(flow << " " << key);
+          if (value.is_number()) {
+            CHECK(value.get<double>() == Approx(written[i].at(key).get<double>()).epsilon(1e-9).margin(1e-9));
+          } else {
+            CHECK(value == written[i].at(key));
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("a chute is held against the checklist at every friction and flow, worst case named") {

@@ -3,8 +3,11 @@
 #include "glissade/pipeline/json.hpp"
 
 #include "support/catch.hpp"
+#include "support/random.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -142,6 +145,79 @@ TEST_CASE("a body that next to no more friction stops is warned of, at the highe
   const std::string dragged = "11 deg, drag: 0.1 1/m";
   CHECK_THAT(told(dragged, fast_exit + "}\n"), Contains("stops the body") && Contains("lowest_slope_margin"));
   CHECK(told(dragged, fast_exit + ", lowest_slope_margin: 1 deg}\n").empty());
+}
+
+namespace {
+
+/// Frictions in degrees from 0 m and from 5 m on.
+Design with_angles(const std::vector<double>& angles) {
+  std::string list;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    list += fmt::format("{}{{from: {} m, angle: {} deg}}", i == 0 ? "" : ", ", 5 * i, angles[i]);
+  return parse_design(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 10 m}}\nbody: {friction: [" + list +
+          "]}\ncenterline: {kind: segments, entry_slope_angle: 30 deg, segments: [{length: 10 m}]}\n",
+      "d.yaml");
+}
+
+Friction of_degrees(double angle) {
+  return Friction::from_angle(Angle::from_degrees(angle));
+}
+
+/// Why a design cannot have another friction at its start; empty if it can.
+std::string refusal(const Design& design, double angle) {
+  try {
+    const Design other = with_friction(design, of_degrees(angle));
+    for (std::size_t i = 0; i < other.body.friction_changes.size(); ++i) {
+      const double by = other.body.friction_changes[i].friction.angle().degrees() -
+                        design.body.friction_changes[i].friction.angle().degrees();
+      CHECK(std::fabs(by - (angle - design.body.friction.angle().degrees())) < 1e-9);
+    }
+    CHECK(other.body.friction.angle().degrees() == Approx(angle).margin(1e-9));
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("another friction at the start moves all along the track by the same angle, or is refused") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr double kSteepest = 89.9942;
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<double> angles = {random.between(0.0, 60.0), random.between(0.0, 89.9),
+                                        random.between(0.0, 89.9)};
+    const double asked = random.between(0.0, 80.0);
+    CAPTURE(angles, asked);
+    const Design design = with_angles(angles);
+    const auto [least, most] = std::minmax({angles[1], angles[2]});
+    const double by = asked - angles[0];
+    const std::string told = refusal(design, asked);
+    CHECK(told.empty() == (least + by >= 0.0 && most + by <= kSteepest));
+    if (told.empty()) continue;
+    INFO(told);
+    CHECK_THAT(told, Contains("d.yaml:3:") && Contains("friction: ") && Contains(" m on would be ") &&
+                         Contains(" at the start") && Contains("between 0 deg and 89.994 deg"));
+  }
+}
+
+TEST_CASE("what is refused for one friction along the track names that, and a friction that does") {
+  const std::string told = refusal(with_angles({20.0, 8.0}), 5.0);
+  CHECK_THAT(told, Contains("d.yaml:3:") &&
+                       Contains("friction: 8 deg from 5 m on would be -7 deg with 5 deg at the start") &&
+                       Contains("The start has 20 deg") && Contains("by -15 deg") &&
+                       Contains("Try: at least 12 deg at the start"));
+  CHECK(refusal(with_angles({20.0, 8.0}), 12.0).empty());
+  const std::string steep = refusal(with_angles({20.0, 80.0}), 40.0);
+  CHECK_THAT(steep, Contains("friction: 80 deg from 5 m on would be 100 deg") &&
+                        Contains("Try: at most 29.99 deg at the start"));
+  CHECK(refusal(with_angles({20.0, 80.0}), 29.99).empty());
+  // Where nothing changes nothing is shifted, however steep.
+  const Design own = with_angles({20.0, 89.95});
+  CHECK(with_friction(own, own.body.friction).body.friction_changes[1].friction ==
+        own.body.friction_changes[1].friction);
 }
 
 }  // namespace friction_range_test

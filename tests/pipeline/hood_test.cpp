@@ -14,9 +14,14 @@
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"
 
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -282,6 +287,125 @@ TEST_CASE("where some of a choice has no contact, what is chosen has") {
   REQUIRE(track.hood);
   for (const LevelRide& ride : track.rides())
     CHECK(hood_passage(as_solved(design, track), ride.motion->body()).least_contact >= 1.0);
+}
+
+namespace {
+
+/// What a solve told, as programs read it.
+json told(const Design& design, const Track& track) {
+  return json::parse(track_json(design, track));
+}
+
+/// A hood that is not known to be the best is told everywhere as that.
+void tells_of_early_hood(const Design& design, const Track& track, const std::string& why) {
+  REQUIRE(track.early_hood);
+  CHECK(track.early_hood->ended_early);
+  CHECK_THAT(track.early_hood->message, Contains(why) && Contains("best hood and track so far"));
+  const auto problem = search_problem(design, track);
+  REQUIRE(problem);
+  CHECK_THAT(problem->what, Contains("the search for the hood ended early: ") && Contains(why));
+  CHECK_THAT(problem->hint, Contains("--time-budget"));
+  const json document = told(design, track);
+  CHECK(document["hood"]["not_converged"] == track.early_hood->message);
+  if (!track.search) return;
+  CHECK(track.search->ended_early);
+  CHECK(document["search"]["status"] == "feasible, not converged");
+  CHECK_THAT(document["search"]["message"].get<std::string>(), Contains(why));
+}
+
+}  // namespace
+
+TEST_CASE("a transfer is told as the best one, or that its search ended early, whatever the time budget") {
+  const Design design = read_design(designs_path("ore_transfer.yaml"));
+  const auto solved = [&](double budget) {
+    RunContext context;
+    context.time_budget = budget;
+    return solve(design, context);
+  };
+  const auto time_of = [&](const Track& track) {
+    return transfer_time(as_solved(design, track), track.motion);
+  };
+  const Track whole = solved(60.0);
+  CHECK_FALSE(search_problem(design, whole));
+  CHECK(told(design, whole)["hood"]["not_converged"].is_null());
+  int early = 0;
+  for (const double budget : {1e-3, 0.02, 0.05, 0.1, 0.2, 0.5}) {
+    CAPTURE(budget);
+    const Track track = solved(budget);
+    CHECK_FALSE(limits_problem(design, track));
+    if (!search_problem(design, track)) {
+      CHECK(time_of(track) == Approx(time_of(whole)).epsilon(1e-9));
+      continue;
+    }
+    ++early;
+    CHECK(time_of(track) >= time_of(whole) * (1.0 - 1e-5));
+    tells_of_early_hood(design, track, "the time budget ran out");
+  }
+  CHECK(early > 0);
+}
+
+TEST_CASE("a request to stop while the hood is chosen is met with the best hood and track so far") {
+  const Design design = read_design(designs_path("ore_transfer.yaml"));
+  double before = std::numeric_limits<double>::infinity();
+  for (const int tries : {2, 4, 8, 12}) {
+    CAPTURE(tries);
+    std::stop_source source;
+    std::atomic<bool> goes_on = false;
+    RunContext context;
+    context.stop = source.get_token();
+    context.goes_on_after_stop = &goes_on;
+    context.progress = [&](std::string_view stage, std::optional<double>) {
+      if (stage != "choosing the hood, try " + std::to_string(tries)) return;
+      // Work that is asked to end here may take its time over it.
+      CHECK(goes_on);
+      source.request_stop();
+    };
+    const Track track = solve(design, context);
+    REQUIRE(source.stop_requested());
+    CHECK(goes_on);
+    CHECK_FALSE(limits_problem(design, track));
+    tells_of_early_hood(design, track, "stopped");
+    const double time = transfer_time(as_solved(design, track), track.motion);
+    CHECK(time <= before * (1.0 + 1e-9));
+    before = time;
+  }
+}
+
+TEST_CASE(
+    "a hood above a drawn track that was not chosen to the end is told, though no track was searched for") {
+  const Design design =
+      parse_design(transfer("hood: {radius: {lowest: 0.6 m, highest: 1.1 m}, drop: 400 mm}\n"), "d.yaml");
+  RunContext context;
+  context.time_budget = 1e-9;
+  const Track track = solve(design, context);
+  CHECK_FALSE(track.search);
+  tells_of_early_hood(design, track, "the time budget ran out");
+  CHECK_FALSE(search_problem(design, solve(design)));
+}
+
+TEST_CASE("no hood found in time is no word on those that were not looked at") {
+  // In the middle of the choice no hood has contact, nearer to its lowest radius all have.
+  const Design design = parse_design(
+      transfer("hood: {radius: {lowest: 0.9 m, highest: 4 m}, impact_angle: 12 deg, exit_angle: 78 deg, "
+               "drop: 400 mm}\n"),
+      "d.yaml");
+  CHECK_NOTHROW(solve(design));
+  RunContext context;
+  context.time_budget = 1e-9;
+  try {
+    static_cast<void>(solve(design, context));
+    FAIL("solved in no time");
+  } catch (const NoTrackFound& none) {
+    CHECK_THAT(none.what(),
+               Contains("d.yaml:6:1: ended early, before any hood led the stream to the finish") &&
+                   Contains("Try: a larger --time-budget"));
+    CHECK(none.report().ended_early);
+    CHECK_NOTHROW(conflict_json(design, none.report()));
+  }
+  std::stop_source source;
+  source.request_stop();
+  context.stop = source.get_token();
+  CHECK_THROWS_AS(solve(design, context), Interrupted);
 }
 
 TEST_CASE("a hood is written back as it was read") {

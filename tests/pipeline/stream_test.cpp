@@ -8,6 +8,7 @@
 #include "glissade/pipeline/rules.hpp"
 #include "glissade/trades/chute/wear.hpp"
 
+#include "pipeline/chute_rules.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 
@@ -19,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace stream_test {
@@ -483,6 +485,33 @@ TEST_CASE("rides over the friction range tell each its stream; more friction is 
   for (std::size_t i = 1; i < 3; ++i) {
     CHECK(rides[i]["stream"]["exit_depth_m"].get<double>() >
           rides[i - 1]["stream"]["exit_depth_m"].get<double>());
+  }
+}
+
+TEST_CASE(
+    "rides at other frictions and flows move all friction along the track alike, and take none of what has "
+    "none") {
+  for (const double least : {1.0, 25.0}) {
+    const Design design = parse_design(fmt::format(R"(glissade: 1
+track: {{start: {{x: 0 m, z: 20 m}}}}
+body: {{friction: [{{from: 0 m, angle: 20 deg}}, {{from: 2 m, angle: {} deg}}], entry_speed: 2 m/s}}
+stream: {{mass_flow: 300 t/h, bulk_density: 1600 kg/m^3}}
+centerline: {{kind: segments, entry_slope_angle: 50 deg, segments: [{{length: 5 m}}]}}
+cross_section: {{kind: u-channel, width: 800 mm, wall_height: 500 mm, thickness: 10 mm}}
+)",
+                                                   least),
+                                       "d.yaml");
+    const auto rides = pipeline::what_if_rides(design, make_centerline(design));
+    REQUIRE(rides.size() == 35);
+    double lowest = 90.0;
+    for (const pipeline::WhatIfRide& ride : rides) {
+      const Body& body = ride.motion.body();
+      REQUIRE(body.friction_changes.size() == 1);
+      const double start = body.friction.angle().degrees();
+      lowest = std::min(lowest, start);
+      CHECK(body.friction_changes[0].friction.angle().degrees() - start == Approx(least - 20.0).margin(1e-9));
+    }
+    CHECK(lowest == Approx(20.0 - std::min(3.0, least)).margin(1e-9));
   }
 }
 

@@ -251,6 +251,27 @@ TEST_CASE("the derivatives of a speed are what differences of rides say") {
   }
 }
 
+TEST_CASE("the derivative by friction moves all frictions along the track alike, one of none too") {
+  const CenterlinePtr track = garmisch_track();
+  const double place = 90.0;
+  for (const double least : {0.0, 3e-5, 0.02}) {
+    CAPTURE(least);
+    const auto with = [&](double change) {
+      Body body = skier(0.04 + change, 0.0013);
+      body.friction_changes = {{30.0, Friction::from_coefficient(least + change)},
+                               {60.0, Friction::from_coefficient(0.05 + change)}};
+      return body;
+    };
+    const auto speed = [&](double change) {
+      return ride_from(track, 0.0, with(change), kGravity).at(place).speed;
+    };
+    const double step = 2e-5;  // below the least friction that is not 0
+    const double less = std::min(step, least);
+    const double slope = (speed(step) - speed(-less)) / (step + less);
+    CHECK(speed_slopes(track, 0.0, place, with(0.0), kGravity).by_friction == Approx(slope).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("more friction, more drag or head wind make every gate slower, a longer in-run faster") {
   const CenterlinePtr track = garmisch_track();
   const std::vector<Gate> gates = even_gates(track->length(), 24.0, 5);

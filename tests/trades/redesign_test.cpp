@@ -14,8 +14,11 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <stop_token>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace redesign_test {
 
@@ -345,6 +348,77 @@ TEST_CASE("every goal is met from the height or the speed of the certificate, an
     const bool same_height = goal != RedesignGoal::least_drop && goal != RedesignGoal::least_length;
     if (same_height) CHECK(std::fabs(free.ends.drop - certificate.ends.drop) < 1e-5);
   }
+}
+
+namespace {
+
+/// What a free shape is held against: shapes that keep all that is asked of it.
+void is_no_worse_than_known(const Redesign& found) {
+  const RedesignShape& free = found.shapes.back();
+  const RedesignShape& within = shape_named(found, "within the rules");
+  REQUIRE(free.track);
+  constexpr double kSame = 1.0 + 2e-6;
+  if (found.goal == RedesignGoal::least_drop) CHECK(free.ends.drop <= kSame * within.ends.drop);
+  if (found.goal == RedesignGoal::least_length) CHECK(free.length <= kSame * within.length);
+  // Its radius is less than the rules ask for, which a search for the least load leaves aside.
+  if (found.goal == RedesignGoal::least_load)
+    CHECK(free.highest_load <= kSame * found.shapes.front().highest_load);
+}
+
+}  // namespace
+
+TEST_CASE("a redesign that runs out of time says so, and is no worse than what is known") {
+  const Design design = garmisch_design();
+  for (const RedesignGoal goal :
+       {RedesignGoal::least_drop, RedesignGoal::least_length, RedesignGoal::least_load}) {
+    for (const double budget : {1e-6, 1e-3, 0.01, 0.03}) {
+      INFO(word(goal) << ", " << budget << " s");
+      RedesignOptions options;
+      options.goal = goal;
+      RunContext context;
+      context.time_budget = budget;
+      const Redesign found = redesign(design, options, context);
+      is_no_worse_than_known(found);
+      REQUIRE(found.search);
+      const auto problem = found.search_problem();
+      CHECK(problem.has_value() == (found.search->status != OptimizeStatus::optimal));
+      if (budget == 1e-6) REQUIRE(problem);
+      if (!problem) continue;
+      CHECK_THAT(problem->what, contains_text("the search for the free shape ended early: ") &&
+                                    contains_text(found.search->message));
+      CHECK(problem->hint == "a larger --time-budget");
+      const auto told = nlohmann::json::parse(redesign_json(design, found));
+      CHECK(told["search"]["status"] == "feasible, not converged");
+    }
+  }
+  CHECK_FALSE(garmisch_redesign().search_problem());
+}
+
+TEST_CASE("a redesign that is asked to end has what is known, as a design of its letters") {
+  const Design design = garmisch_design();
+  RedesignOptions options;
+  options.goal = RedesignGoal::least_load;
+  std::stop_source source;
+  source.request_stop();
+  RunContext context;
+  context.stop = source.get_token();
+  const Redesign found = redesign(design, options, context);
+  is_no_worse_than_known(found);
+  const RedesignShape& free = found.shapes.back();
+  CHECK(free.name == "free, least-load");
+  REQUIRE(free.letters);
+  CHECK(free.letters->r1 == design.centerline.in_run.r1);
+  REQUIRE(found.search);
+  CHECK_THAT(found.search->message, contains_text("no better shape is known than this one: certificate"));
+  REQUIRE(found.search_problem());
+  const Design made = redesigned(design, found, true);
+  CHECK(made.centerline.kind == CenterlineKind::in_run);
+  const Design read = parse_design(design_text(made), "made.yaml");
+  CHECK(solve(read).motion.highest_load().normal_load == Approx(free.highest_load).epsilon(1e-9));
+  // Where nothing is known there is nothing to tell: no letters give another speed from the same height.
+  options.speed = 0.99 * found.take_off.speed;
+  options.curvature_rate = 1e-9;
+  CHECK_THROWS_AS(redesign(design, options, context), Interrupted);
 }
 
 TEST_CASE("a redesign passes under a bridge that the certificate and its neighbours run into") {

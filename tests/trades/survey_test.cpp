@@ -10,12 +10,17 @@
 #include "support/random.hpp"
 #include "support/temp_dir.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace survey_test {
 
@@ -133,6 +138,85 @@ TEST_CASE("stretches without points are told, those at the ends too") {
   const SurveyRides rides = ride_survey(track, survey, skier(), 9.81);
   CHECK(rides.from == Approx(8.0).epsilon(1e-9));
   CHECK(std::fabs(rides.as_built.exit_speed() - rides.designed.at(rides.to).speed) < 5e-3);
+}
+
+TEST_CASE("of a part that was surveyed both loads are of that part") {
+  const CenterlinePtr track = in_run();
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 6; ++i) {
+    const double from = i == 0 ? 0.0 : random.between(0.0, 60.0);
+    const double to = from + random.between(15.0, 40.0);
+    CAPTURE(from, to);
+    const Survey survey = survey_of(*track, points_on(*track, from, to, 40, 0.0, [](double) { return 0.0; }));
+    const SurveyRides rides = ride_survey(track, survey, skier(), 9.81);
+    double most = 0.0;
+    constexpr int kLooks = 4000;
+    for (int k = 0; k <= kLooks; ++k)
+      most = std::max(most, rides.designed.at(std::min(from + (to - from) * k / kLooks, to)).normal_load);
+    CHECK(rides.designed_there.highest_load().normal_load == Approx(most).epsilon(1e-5));
+    CHECK(rides.as_built.highest_load().normal_load == Approx(most).epsilon(5e-3));
+    CHECK(rides.designed_there.exit_speed() == Approx(rides.designed.at(rides.to).speed).epsilon(1e-9));
+    const auto told = nlohmann::json::parse(survey_json({}, survey, rides, {}));
+    CHECK(told["designed_max_normal_load_m_per_s2"].get<double>() == Approx(most).epsilon(1e-5));
+  }
+}
+
+TEST_CASE(
+    "points off the ends of the track, in any order, change nothing of the ride on what was built of it") {
+  const CenterlinePtr track = in_run();
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const std::vector<SurveyPoint> points =
+      points_on(*track, 0.0, track->length(), 60, 0.0, [](double) { return 0.0; });
+  const SurveyRides within = ride_survey(track, survey_of(*track, points), skier(), 9.81);
+  const auto off = [&](const CenterlinePoint& end, double by) {
+    return SurveyPoint{"off " + std::to_string(by), end.x + by * std::cos(end.slope_angle),
+                       end.drop + by * std::sin(end.slope_angle), 0.0};
+  };
+  for (int i = 0; i < 8; ++i) {
+    std::vector<SurveyPoint> more = points;
+    const double before = random.between(0.5, 1.0);
+    const double beyond = random.between(0.5, 1.0);
+    CAPTURE(before, beyond);
+    for (const double by : {0.4 * before, before}) more.push_back(off(track->at(0.0), -by));
+    for (const double by : {beyond, 0.4 * beyond}) more.push_back(off(track->at(track->length()), by));
+    for (std::size_t k = more.size(); k > 1; --k)
+      std::swap(more[k - 1],
+                more[static_cast<std::size_t>(random.between(0.0, 1.0) * static_cast<double>(k - 1))]);
+    const Survey survey = survey_of(*track, more);
+    CHECK(survey.places.front().beyond == Approx(-before).epsilon(1e-6));
+    CHECK(survey.places.back().beyond == Approx(beyond).epsilon(1e-6));
+    CHECK(survey.before_start == Approx(before).epsilon(1e-3));
+    CHECK(survey.beyond_end == Approx(beyond).epsilon(1e-3));
+    const SurveyRides rides = ride_survey(track, survey, skier(), 9.81);
+    CHECK(rides.from == 0.0);
+    CHECK(rides.to == track->length());
+    CHECK(rides.as_built.exit_speed() == Approx(within.as_built.exit_speed()).epsilon(1e-4));
+    CHECK(rides.as_built.travel_time() == Approx(within.as_built.travel_time()).epsilon(1e-3));
+    const auto told = nlohmann::json::parse(survey_json({}, survey, rides, {}));
+    CHECK(told["before_start_m"].get<double>() == survey.before_start);
+    CHECK(told["beyond_end_m"].get<double>() == survey.beyond_end);
+  }
+  std::vector<SurveyPoint> none;
+  for (int i = 0; i < 6; ++i) none.push_back(off(track->at(track->length()), 0.1 + 0.1 * i));
+  CHECK_THROWS_WITH(ride_survey(track, survey_of(*track, none), skier(), 9.81),
+                    Contains("points: they lie before the start of the track or beyond its end"));
+}
+
+TEST_CASE("below the first point of a survey friction is that of the place, and no impact is met again") {
+  const CenterlinePtr track = in_run();
+  Body body = skier();
+  body.friction_changes = {{20.0, Friction::from_coefficient(0.1)}, {60.0, Friction::from_coefficient(0.02)}};
+  body.landing = Landing{9.0, Angle::from_degrees(60.0)};
+  for (const double from : {0.0, 10.0, 40.0, 70.0}) {
+    CAPTURE(from);
+    const Survey survey =
+        survey_of(*track, points_on(*track, from, track->length(), 120, 0.0, [](double) { return 0.0; }));
+    const SurveyRides rides = ride_survey(track, survey, body, 9.81);
+    CHECK(rides.as_built.exit_speed() == Approx(rides.designed.exit_speed()).epsilon(1e-4));
+    CHECK(rides.designed_there.exit_speed() == Approx(rides.designed.exit_speed()).epsilon(1e-9));
+  }
 }
 
 TEST_CASE(

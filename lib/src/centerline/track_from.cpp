@@ -4,22 +4,31 @@
 #include "glissade/core/number_text.hpp"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace glissade {
 
-TrackFrom::TrackFrom(CenterlinePtr whole, double start) : whole_(std::move(whole)), start_(start) {
+TrackFrom::TrackFrom(CenterlinePtr whole, double start, std::optional<double> end)
+    : whole_(std::move(whole)), start_(start), end_(0.0) {
   if (!whole_) throw InputError({"", "there is no track to take a part of", "", ""});
+  end_ = end.value_or(whole_->length());
+  const std::string why = "The track is " + exact_text(whole_->length()) + " m long.";
   if (!(start >= 0.0 && start < whole_->length())) {
-    throw InputError({"", "a part of the track cannot begin at " + exact_text(start) + " m",
-                      "The track is " + exact_text(whole_->length()) + " m long.", ""});
+    throw InputError({"", "a part of the track cannot begin at " + exact_text(start) + " m", why, ""});
+  }
+  if (!(end_ > start && end_ <= whole_->length())) {
+    throw InputError(
+        {"",
+         "a part of the track from " + exact_text(start) + " m on cannot end at " + exact_text(end_) + " m",
+         why, ""});
   }
   origin_ = whole_->at(start);
 }
 
 double TrackFrom::on_whole(double s) const {
   require_on_track(s);
-  return std::min(start_ + s, whole_->length());
+  return std::min(start_ + s, end_);
 }
 
 CenterlinePoint TrackFrom::at(double s) const {
@@ -41,7 +50,7 @@ Direction TrackFrom::direction(double s) const {
 std::vector<double> TrackFrom::breaks() const {
   std::vector<double> breaks = {0.0};
   for (const double at : whole_->breaks()) {
-    if (at > start_ && at < whole_->length()) breaks.push_back(at - start_);
+    if (at > start_ && at < end_) breaks.push_back(at - start_);
   }
   breaks.push_back(length());
   return breaks;

@@ -134,7 +134,7 @@ void check_drag(const BodyDesign& body, Collected& findings) {
   check_range("body.head_wind", body.head_wind, Dimension::speed, {-kHighestWind, kHighestWind},
               "It lies between -150 m/s, from behind, and 150 m/s.", "3 m/s", findings);
   if (body.head_wind == 0.0 || body.drag_per_metre != 0.0) return;
-  report(findings, {"body.head_wind"},
+  report(findings, {"body.head_wind", "body.drag", "body.drag_area"},
          {"", "head_wind: " + rounded_text(body.head_wind, 4) + " m/s on a body without drag",
           "Without drag the air does nothing.", "drag, or mass and drag_area"});
 }

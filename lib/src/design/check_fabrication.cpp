@@ -51,11 +51,24 @@ void check_bend(const BendOptions& bend, Collected& findings) {
   }
 }
 
+/// The options that a problem of one of them may hang on: whether a bar is rolled, and takes its bolts, is a matter of all its
+/// measures, and what joins prints of the joint.
+std::vector<std::string> with_those_beside(const std::string& key) {
+  std::vector<std::string> keys = {key};
+  if (key.starts_with("fabrication.flanges.")) {
+    for (const char* const other : {"section", "width", "thickness", "bolt", "slotted", "slot"})
+      keys.push_back(std::string("fabrication.flanges.") + other);
+  }
+  if (key == "fabrication.dowels" || key.starts_with("fabrication.tongue"))
+    keys.emplace_back("fabrication.joint");
+  return keys;
+}
+
 void report_all(std::vector<Issue> issues, Collected& findings) {
   for (Issue& issue : issues) {
     const std::string key = (issue.where.starts_with("cross_section.") ? "" : "fabrication.") + issue.where;
     issue.where.clear();
-    report(findings, {key}, std::move(issue));
+    report(findings, with_those_beside(key), std::move(issue));
   }
 }
 

@@ -35,7 +35,7 @@ void MadeDirectories::make(const fs::path& directory) {
   if (!error && fs::is_directory(directory)) return;
   throw FileError({directory.string(),
                    "cannot be made: " + (error ? error.message() : "there is a file of this name"), "",
-                   "another directory with -o"});
+                   "another directory"});
 }
 
 }  // namespace glissade

@@ -12,8 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 FileError not_placed(const fs::path& path, const std::string& what, const std::error_code& reason) {
-  return FileError(
-      {path.string(), what + ": " + reason.message(), "", "another directory with -o, or free space"});
+  return FileError({path.string(), what + ": " + reason.message(), "", "another directory, or free space"});
 }
 
 }  // namespace

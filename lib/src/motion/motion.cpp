@@ -387,6 +387,21 @@ std::string_view to_text(RideEnd end) {
   return kTexts[static_cast<std::size_t>(end)];
 }
 
+Body body_from(Body body, double start) {
+  if (start == 0.0) return body;
+  if (LawPtr rest = body.law ? body.law->from(start) : nullptr) body.law = std::move(rest);
+  std::vector<FrictionChange> changes;
+  for (const FrictionChange& change : body.friction_changes) {
+    if (change.from > start) {
+      changes.push_back({change.from - start, change.friction});
+    } else {
+      body.friction = change.friction;
+    }
+  }
+  body.friction_changes = std::move(changes);
+  return body;
+}
+
 Friction least_friction(const Body& body) {
   Friction least = body.friction;
   for (const FrictionChange& change : body.friction_changes) least = std::min(least, change.friction);

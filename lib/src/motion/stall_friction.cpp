@@ -10,12 +10,13 @@ namespace {
 
 constexpr Angle kSteepest = Angle::from_degrees(89.9);
 
-/// The body with that friction, changes along the track shifted by the same angle.
+/// The body with that friction, changes along the track shifted by the same angle as far as there is friction.
 Body with_friction(Body body, Angle angle) {
   const double shift = angle.radians() - body.friction.angle().radians();
   body.friction = Friction::from_angle(angle);
   for (FrictionChange& change : body.friction_changes) {
-    const double shifted = std::clamp(change.friction.angle().radians() + shift, 0.0, kSteepest.radians());
+    const double own = change.friction.angle().radians();
+    const double shifted = std::clamp(own + shift, 0.0, std::max(own, kSteepest.radians()));
     change.friction = Friction::from_angle(Angle::from_radians(shifted));
   }
   return body;

@@ -12,8 +12,6 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr int kMostEvaluations = 60;  // budget
-
 struct Search {
   const std::function<double(const std::vector<double>&)>* value = nullptr;
   const std::function<bool()>* ends = nullptr;
@@ -33,8 +31,8 @@ struct Search {
     met_nothing = met_nothing || !std::isfinite(found);
     return found;
   }
-  /// From the best so far.
-  void go_on(std::size_t variables, nlopt_algorithm method);
+  /// From the best so far. @return whether the engine came to its end
+  bool go_on(std::size_t variables, nlopt_algorithm method);
 };
 
 /// NLopt is told a large value where there is none: it compares.
@@ -56,7 +54,7 @@ double evaluate(unsigned variables, const double* place, double* /*gradient*/, v
   }
 }
 
-void Search::go_on(std::size_t variables, nlopt_algorithm method) {
+bool Search::go_on(std::size_t variables, nlopt_algorithm method) {
   met_nothing = false;
   engine = nlopt_create(method, static_cast<unsigned>(variables));
   nlopt_set_min_objective(engine, evaluate, this);
@@ -64,12 +62,20 @@ void Search::go_on(std::size_t variables, nlopt_algorithm method) {
   nlopt_set_upper_bounds1(engine, 1.0);
   nlopt_set_initial_step1(engine, 0.2);
   nlopt_set_xtol_abs1(engine, kBoxAccuracy);
-  nlopt_set_maxeval(engine, kMostEvaluations);
+  nlopt_set_maxeval(engine, kMostBoxValues);
   std::vector<double> place = best->at;
   double least = 0.0;
-  nlopt_optimize(engine, place.data(), &least);
+  const nlopt_result result = nlopt_optimize(engine, place.data(), &least);
   nlopt_destroy(engine);
   if (thrown) std::rethrow_exception(thrown);
+  // Rounding ends a search that has nothing left to win.
+  return result == NLOPT_XTOL_REACHED || result == NLOPT_ROUNDOFF_LIMITED;
+}
+
+/// @return the best that was found, marked so
+std::optional<BoxMinimum> marked(std::optional<BoxMinimum> best, bool to_the_end) {
+  if (best) best->to_the_end = to_the_end;
+  return best;
 }
 
 }  // namespace
@@ -89,14 +95,14 @@ std::optional<BoxMinimum> least_in_box(std::size_t variables,
       everywhere = std::isfinite(search.see(place)) && everywhere;
     }
   }
-  if (!search.best || ends()) return search.best;
+  if (!search.best || ends()) return marked(search.best, false);
   // A quadratic model takes a third of the evaluations; it has to have a value wherever it looks.
   if (everywhere && variables > 1) {
-    search.go_on(variables, NLOPT_LN_BOBYQA);
-    if (!search.met_nothing) return search.best;
+    const bool ended = search.go_on(variables, NLOPT_LN_BOBYQA);
+    if (!search.met_nothing) return marked(search.best, ended);
   }
-  search.go_on(variables, NLOPT_LN_SBPLX);
-  return search.best;
+  const bool ended = search.go_on(variables, NLOPT_LN_SBPLX);
+  return marked(search.best, ended);
 }
 
 }  // namespace glissade::optimizer

@@ -12,6 +12,8 @@ namespace glissade::optimizer {
 struct BoxMinimum {
   std::vector<double> at;  ///< each within 0 to 1
   double value = 0.0;
+  /// Known to kBoxAccuracy; false where `ends` said so before, or kMostBoxValues were looked at.
+  bool to_the_end = false;
 };
 
 /// The middle of the box and the middles of its sides are looked at; from the best of them NLopt's search by quadratic
@@ -26,5 +28,7 @@ struct BoxMinimum {
 
 /// Of each side of the box.
 inline constexpr double kBoxAccuracy = 1e-3;  // taste
+/// Places that one engine looks at.
+inline constexpr int kMostBoxValues = 120;  // budget: twice what three variables took
 
 }  // namespace glissade::optimizer

@@ -8,6 +8,7 @@
 #include "glissade/motion/laws/rider.hpp"
 #include "glissade/motion/laws/rolling_ball.hpp"
 #include "glissade/pipeline/solve.hpp"
+#include "glissade/trades/chute/stream.hpp"
 
 #include "pipeline/hood.hpp"
 #include "pipeline/located.hpp"
@@ -56,6 +57,15 @@ LawPtr law_of(const BodyDesign& body) {
   return std::visit([&](const auto& kind) { return law_of(kind, body); }, body.kind);
 }
 
+/// Of the stream that rides, which need not be the nominal one: a surge is at the lowest density [kg/m^3].
+double density_of(const Motion& motion) {
+  const BulkStream* const stream = stream_of(motion.body());
+  if (stream == nullptr)
+    throw InputError(
+        {"", "the body is no stream", "Only a bulk solid has a density.", "a design with a stream"});
+  return stream->shape().bulk_density;
+}
+
 }  // namespace
 
 FeedFall pipeline::first_fall(const Design& design) {
@@ -69,14 +79,14 @@ BeltLanding belt_landing(const Design& design, const Motion& motion) {
   return land_on_belt(motion.exit_speed(),
                       Angle::from_radians(motion.centerline().slope_angle(motion.distance())),
                       {belt.belt_speed, belt.direction, belt.belt_angle, belt.drop, belt.belt_friction},
-                      design.stream.value().bulk_density, design.gravity);
+                      density_of(motion), design.gravity);
 }
 
-std::optional<Impact> impact_of(const Design& design, const Motion& motion) {
+std::optional<Impact> impact_of(const Motion& motion) {
   const Body& body = motion.body();
   if (!body.landing || !lands(motion)) return {};
   return impact_on(*body.landing, Angle::from_radians(motion.centerline().slope_angle(0.0)), body.friction,
-                   design.stream.value().bulk_density);
+                   density_of(motion));
 }
 
 WearFacts wear_at_frictions(const Track& track) {

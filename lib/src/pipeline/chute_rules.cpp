@@ -220,7 +220,7 @@ void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Mea
   WorstCase angle(1.0);
   bool all_land = true;
   for (const ChuteCase& run : cases) {
-    const std::optional<Impact> impact = impact_of(design, run.motion);
+    const std::optional<Impact> impact = impact_of(run.motion);
     const double slope = run.motion.centerline().slope_angle(0.0);
     // What lands within the rounding of a search lands.
     const double steeper = run.motion.body().landing.value().angle.radians() - slope;
@@ -404,28 +404,43 @@ std::vector<double> spread_with(double low, double nominal, double high, int cou
   return values;
 }
 
+/// The friction angles of the start to look at: those of a range, else some degrees to either side, as far as all along the track
+/// may change with it [rad].
+std::pair<double, double> frictions_around(const BodyDesign& body) {
+  const double nominal = body.friction.angle().radians();
+  if (body.low_friction || body.high_friction) {
+    return {body.low_friction.value_or(body.friction).angle().radians(),
+            body.high_friction.value_or(body.friction).angle().radians()};
+  }
+  constexpr double kBeside = Angle::from_degrees(3.0).radians();     // taste
+  constexpr double kSteepest = Angle::from_degrees(89.9).radians();  // taste: below all that frictions may be
+  double least = nominal;
+  double most = nominal;
+  for (const FrictionFrom& change : body.friction_changes) {
+    least = std::min(least, change.friction.angle().radians());
+    most = std::max(most, change.friction.angle().radians());
+  }
+  return {nominal - std::min(kBeside, least), nominal + std::clamp(kSteepest - most, 0.0, kBeside)};
+}
+
 }  // namespace
 
 std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr& centerline) {
   const BodyDesign& body = design.body;
   const StreamDesign& stream = design.stream.value();
-  constexpr double kBeside = Angle::from_degrees(3.0).radians();
   constexpr int kFrictions = 5;
   constexpr int kFlows = 7;
   constexpr double kBeyondSurge = 4.0 / 3.0;
   const double nominal = body.friction.angle().radians();
-  const bool range = body.low_friction || body.high_friction;
-  const double low =
-      range ? body.low_friction.value_or(body.friction).angle().radians() : std::max(0.0, nominal - kBeside);
-  const double high =
-      range ? body.high_friction.value_or(body.friction).angle().radians() : nominal + kBeside;
+  const auto [low, high] = frictions_around(body);
   std::vector<WhatIfRide> rides;
   for (const double angle : spread_with(low, nominal, high, kFrictions)) {
+    // The design's own friction may be a coefficient: its angle and back is not the same double.
+    const Friction friction =
+        angle == nominal ? body.friction : Friction::from_angle(Angle::from_radians(angle));
+    const Body rubbed = body_of(with_friction(design, friction));
     for (const double factor : spread_with(stream.trickle, 1.0, kBeyondSurge * stream.surge, kFlows)) {
-      Body one = body_of(design);
-      // The design's own friction may be a coefficient: its angle and back is not the same double.
-      one.friction = angle == nominal ? body.friction : Friction::from_angle(Angle::from_radians(angle));
-      if (factor != 1.0) one = with_flow(one, factor);
+      const Body one = factor != 1.0 ? with_flow(rubbed, factor) : rubbed;
       rides.push_back({factor * stream.mass_flow, factor == 1.0 && angle == nominal,
                        Motion(centerline, one, design.gravity)});
     }

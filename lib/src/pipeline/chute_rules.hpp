@@ -25,8 +25,9 @@ struct WhatIfRide {
   bool nominal = false;    ///< the design's own
   Motion motion;           ///< its body has the friction
 };
-/// Five frictions over the design's range, or 3 deg to either side where it has none, each with seven flows from trickle to a
-/// third more than a surge: every flow of a friction, friction after friction; at the nominal density.
+/// Five frictions over the design's range, or 3 deg to either side where it has none (less where friction along the track would
+/// leave what there is), each with seven flows from trickle to a third more than a surge: every flow of a friction, friction after
+/// friction; at the nominal density.
 [[nodiscard]] std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr& centerline);
 
 /// Measures on the track of a stream what the rules of chutes bound, over all of its cases.

@@ -2,12 +2,18 @@
 
 #include "pipeline/friction_range.hpp"
 
+#include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/motion/stall_friction.hpp"
 #include "glissade/pipeline/solve.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace glissade {
 
@@ -24,28 +30,76 @@ std::vector<LevelRide> Track::rides() const {
 
 namespace {
 
-constexpr Angle kSteepest = Angle::from_degrees(89.9);
+/// By how much friction changes at the start, and all along with it.
+class FrictionShift {
+ public:
+  FrictionShift(const Design& design, const Friction& friction)
+      : design_(design), asked_(friction), from_(design.body.friction) {}
 
-/// By as much as another friction changes from `before` to `behind`, in angle.
-Friction shifted(Friction friction, Friction before, Friction behind) {
-  if (friction == before) return behind;
-  const double angle = friction.angle().radians() + behind.angle().radians() - before.angle().radians();
-  return Friction::from_angle(Angle::from_radians(std::clamp(angle, 0.0, kSteepest.radians())));
-}
+  /// @param index  of the design's friction_changes
+  [[nodiscard]] Friction of(std::size_t index) const {
+    const Friction friction = design_.body.friction_changes[index].friction;
+    if (asked_ == from_) return friction;
+    if (friction == from_) return asked_;
+    constexpr double kRounding = 1e-12;  // rounding: of angles there and back [rad]
+    const double angle = friction.angle().radians() + by();
+    if (angle < -kRounding || angle > steepest() + kRounding) throw InputError(beyond(index, angle));
+    const Friction shifted = Friction::from_angle(Angle::from_radians(std::clamp(angle, 0.0, steepest())));
+    return std::min(shifted, Friction::from_coefficient(kRoughest));
+  }
+
+ private:
+  /// Down to hundredths of a degree [deg].
+  [[nodiscard]] static double to_step(double radians) {
+    constexpr double kSteps = 100.0;    // taste
+    constexpr double kRounding = 1e-9;  // rounding: of a bound that is a step, less than of() allows
+    return std::floor(kSteps * Angle::from_radians(radians).degrees() + kRounding) / kSteps;
+  }
+  [[nodiscard]] static double steepest() { return math::atan(kRoughest); }
+  [[nodiscard]] double by() const { return asked_.angle().radians() - from_.angle().radians(); }
+
+  [[nodiscard]] Issue beyond(std::size_t index, double angle) const {
+    const FrictionFrom& change = design_.body.friction_changes[index];
+    const bool below = angle < 0.0;
+    const double room = (below ? 0.0 : steepest()) - change.friction.angle().radians();
+    const double bound = from_.angle().radians() + room;
+    const auto text = [](double radians, int digits) {
+      return angle_text(Angle::from_radians(radians), digits);
+    };
+    constexpr int kDigits = 6;  // rounding: as many tell 89.994 deg from what is steeper
+    return {design_.where("body.friction." + std::to_string(index)),
+            "friction: " + angle_text(change.friction.angle()) + " from " + length_text(change.from) +
+                " on would be " + text_beyond(angle, {0.0, steepest()}, text, below ? 4 : kDigits) +
+                " with " + angle_text(asked_.angle()) + " at the start",
+            "The start has " + angle_text(from_.angle()) +
+                ": another friction there changes all of it by the same angle, here by " + text(by(), 4) +
+                ", and friction lies between 0 deg and 89.994 deg.",
+            below ? "at least " + angle_text(Angle::from_degrees(-to_step(-bound))) + " at the start"
+                  : "at most " + angle_text(Angle::from_degrees(to_step(bound))) + " at the start"};
+  }
+
+  const Design& design_;
+  Friction asked_;
+  Friction from_;
+};
 
 }  // namespace
 
-Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction) {
-  // Where friction changes along the track all of it shifts by the same angle, as for the stall margin.
-  const Friction before = design.body.friction;
-  for (FrictionFrom& change : design.body.friction_changes)
-    change.friction = shifted(change.friction, before, friction);
+Design with_friction(Design design, const Friction& friction) {
+  const FrictionShift shift(design, friction);
+  std::vector<Friction> along;
+  for (std::size_t i = 0; i < design.body.friction_changes.size(); ++i) along.push_back(shift.of(i));
+  for (std::size_t i = 0; i < along.size(); ++i) design.body.friction_changes[i].friction = along[i];
   design.body.friction = friction;
   design.body.low_friction.reset();
   design.body.high_friction.reset();
-  // Not searched: where the objective would count the highest friction does not matter.
+  // Where the objective would count the highest friction of a range does not matter: there is none.
   design.objective.worst_case = false;
-  return ride(design, centerline);
+  return design;
+}
+
+Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction) {
+  return ride(with_friction(std::move(design), friction), centerline);
 }
 
 std::optional<Angle> stall_angle_of(const Track& track) {

@@ -14,6 +14,7 @@
 #include "pipeline/friction_range.hpp"
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
+#include "pipeline/search_goes_on.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -274,48 +275,116 @@ double cost_of(const Design& design, const CenterlinePtr& centerline) {
   }
 }
 
-}  // namespace
+/// Looks for the choice of a hood that makes the best transfer.
+class HoodSearch {
+ public:
+  HoodSearch(const Design& design, const RunContext& context)
+      : design_(design), context_(context), choices_(*design.hood) {}
 
-Design pipeline::settled(const Design& design, const RunContext& context) {
-  if (!design.hood || design.hood->settled()) return design;
-  // A rough track tells hoods apart: by some 1e-5 of its time it is slower than the one that is made below the best.
-  constexpr int kRoughPieces = 12;  // taste
-  const Choices choices(*design.hood);
-  const double before = core::processor_seconds();
-  const auto spent = [&] { return core::processor_seconds() - before; };
-  std::exception_ptr failure;
-  int tried = 0;
-  const auto cost = [&](const std::vector<double>& place) {
-    Design one = design;
-    one.hood = choices.at(place);
-    RunContext inner = context;
-    inner.progress = {};
-    inner.time_budget = std::max(1e-3, context.time_budget - spent());
-    if (context.progress) context.progress("choosing the hood, try " + std::to_string(++tried), {});
+  SettledDesign found() {
+    const auto best = optimizer::least_in_box(
+        choices_.size(), [this](const std::vector<double>& place) { return cost(place); },
+        [this] { return ends(); });
+    if (!best) throw_none();
+    SettledDesign settled{design_, {}, std::move(best_track_)};
+    settled.design.hood = choices_.at(best->at);
+    if (cut_ || !best->to_the_end) settled.hood_search = why();
+    return settled;
+  }
+
+ private:
+  [[nodiscard]] double spent() const { return core::processor_seconds() - before_; }
+
+  bool ends() {
+    out_of_time_ = out_of_time_ || spent() > context_.time_budget;
+    const bool ends = context_.stop.stop_requested() || out_of_time_;
+    cut_ = cut_ || ends;
+    return ends;
+  }
+
+  /// What the best track below a hood makes of it.
+  double cost(const std::vector<double>& place) {
+    Design one = design_;
+    one.hood = choices_.at(place);
+    if (context_.progress) context_.progress("choosing the hood, try " + std::to_string(++tried_), {});
     try {
       if (auto problem = hood_problem(one)) throw InfeasibleError(*problem);
-      const CenterlinePtr track = one.centerline.kind == CenterlineKind::fastest
-                                      ? search_within_limits(one, inner, kRoughPieces).centerline
-                                      : make_centerline(one);
-      return cost_of(one, track);
+      Optimum track = track_of(one);
+      const double cost = cost_of(one, track.centerline);
+      if (cost < least_) {
+        least_ = cost;
+        if (one.centerline.kind == CenterlineKind::fastest) best_track_ = std::move(track);
+      }
+      return cost;
     } catch (const Interrupted&) {
-      failure = std::current_exception();
-      return std::numeric_limits<double>::infinity();
+      ends();
+      failure_ = std::current_exception();
     } catch (const Error&) {
-      if (!failure) failure = std::current_exception();
-      return std::numeric_limits<double>::infinity();
+      ends();
+      if (!failure_) failure_ = std::current_exception();
     }
-  };
-  const auto out_of_time = [&] { return context.stop.stop_requested() || spent() > context.time_budget; };
-  const auto best = optimizer::least_in_box(choices.size(), cost, out_of_time);
-  if (!best) {
-    if (failure) std::rethrow_exception(failure);
-    throw InfeasibleError({design.where("hood"), "no hood within these bounds leads the stream to the finish",
-                           "", "wider bounds"});
+    return std::numeric_limits<double>::infinity();
   }
-  Design chosen = design;
-  chosen.hood = choices.at(best->at);
-  return chosen;
+
+  Optimum track_of(const Design& one) {
+    // A rough track tells hoods apart: by some 1e-5 of its time it is slower than the one that is made below the best.
+    constexpr int kRoughPieces = 12;  // taste
+    if (one.centerline.kind != CenterlineKind::fastest) return {make_centerline(one), {}};
+    RunContext inner = context_;
+    inner.progress = {};
+    inner.time_budget = std::max(1e-3, context_.time_budget - spent());
+    Optimum optimum = search_within_limits(one, inner, kRoughPieces);
+    if (optimum.report.ended_early) {
+      cut_ = true;
+      out_of_time_ = out_of_time_ || !context_.stop.stop_requested();
+    }
+    return optimum;
+  }
+
+  [[nodiscard]] EarlyHood why() const {
+    if (context_.stop.stop_requested()) return {"stopped: the best hood and track so far", true};
+    if (out_of_time_) return {"the time budget ran out: the best hood and track so far", true};
+    return {"the hood is not known to a thousandth of its bounds after " +
+                std::to_string(optimizer::kMostBoxValues) + " tries: the best one so far",
+            false};
+  }
+
+  [[noreturn]] void throw_none() const {
+    const std::string where = design_.where("hood");
+    if (cut_ && context_.stop.stop_requested())
+      throw Interrupted({where, "interrupted before any hood led the stream to the finish", "", ""});
+    // What is wrong with the hoods that were looked at says nothing of the others.
+    if (cut_) {
+      OptimizeReport report;
+      report.status = OptimizeStatus::no_track_found;
+      report.message = "ended early, before any hood led the stream to the finish";
+      report.objective = design_.objective;
+      report.ended_early = true;
+      throw NoTrackFound({where, report.message, "", "a larger --time-budget, or narrower bounds"}, report);
+    }
+    if (failure_) std::rethrow_exception(failure_);
+    throw InfeasibleError(
+        {where, "no hood within these bounds leads the stream to the finish", "", "wider bounds"});
+  }
+
+  const Design& design_;
+  const RunContext& context_;
+  Choices choices_;
+  double before_ = core::processor_seconds();
+  int tried_ = 0;
+  bool out_of_time_ = false;
+  bool cut_ = false;  ///< it, or a search for a track in it, was to end before it came to its end
+  double least_ = std::numeric_limits<double>::infinity();
+  std::optional<Optimum> best_track_;  ///< of the least cost
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+SettledDesign pipeline::settled(const Design& design, const RunContext& context) {
+  if (!design.hood || design.hood->settled()) return {design};
+  const SearchGoesOn goes_on(context);
+  return HoodSearch(design, context).found();
 }
 
 }  // namespace glissade

@@ -13,11 +13,20 @@ namespace glissade::pipeline {
 /// The fall from the feed to what it meets first, the hood or the start; the pulley is seen from there.
 [[nodiscard]] FeedFall first_fall(const Design& design);
 
+/// A design whose hood is known.
+struct SettledDesign {
+  Design design;
+  std::optional<EarlyHood> hood_search =
+      {};  ///< none where the hood was given, or its search came to its end
+  std::optional<Optimum> rough =
+      {};  ///< below the hood that a search chose, of fewer pieces, where the track was searched for
+};
+
 /// The design with the hood of the best transfer: what a search may choose of it is chosen together with the track
 /// below, by the design's objective over both.
 /// @return the design itself where there is nothing to choose
-/// @throws InfeasibleError, ConvergenceError, Interrupted as solve(), if no choice makes a track
-[[nodiscard]] Design settled(const Design& design, const RunContext& context);
+/// @throws InfeasibleError, ConvergenceError, Interrupted as solve(), if no choice makes a track, or none was found in time
+[[nodiscard]] SettledDesign settled(const Design& design, const RunContext& context);
 
 /// Why a stream does not pass the hood of a design at one of its frictions, or how the hood is in the way.
 /// @return none if it does, or if there is no hood

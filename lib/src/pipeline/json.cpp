@@ -244,6 +244,7 @@ void add_hood(Json& json, const Design& design, const Track& track, const std::o
   json["hood"]["transfer_time_s"] = there ? Json(transfer_time(design, track.motion)) : Json(nullptr);
   const Range spread = landing_spread(design, track);
   json["hood"]["landing_spread_m"] = {*spread.lowest, *spread.highest};
+  json["hood"]["not_converged"] = track.early_hood ? Json(track.early_hood->message) : Json(nullptr);
 }
 
 }  // namespace
@@ -254,7 +255,7 @@ Json pipeline::track_document(const Design& given, const Track& track, Told told
   json["centerline"] = word(design.centerline.kind);
   add_ride(json, track.motion);
   if (design.feed) {
-    const std::optional<Impact> impact = impact_of(design, track.motion);
+    const std::optional<Impact> impact = impact_of(track.motion);
     const double entry_speed = enters(track.motion) ? track.motion.body().entry_speed : 0.0;
     json["entry_speed_m_per_s"] = impact ? Json(entry_speed) : Json(nullptr);
     json["feed"] = feed_json(feed_fall(design), impact, entry_speed);

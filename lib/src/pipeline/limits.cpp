@@ -485,6 +485,14 @@ std::string searched_name(const Design& design) {
 }
 
 std::optional<Issue> search_problem(const Design& design, const Track& track) {
+  if (track.early_hood) {
+    const bool early = track.early_hood->ended_early;
+    return Issue{design.where("hood"),
+                 std::string("the search for the hood ") + (early ? "ended early: " : "did not converge: ") +
+                     track.early_hood->message,
+                 "Another hood within its bounds may make a better transfer.",
+                 early ? "a larger --time-budget" : "narrower bounds of radius, impact_angle and exit_angle"};
+  }
   if (!track.search || track.search->status == OptimizeStatus::optimal) return {};
   const bool ended_early = track.search->ended_early;
   const bool to_first_order = track.search->first_order_residual <= OptimizeOptions{}.tolerance;

@@ -37,12 +37,11 @@ void require_none_read(const Design& design, const fs::path& directory,
   for (const std::string& name : names) {
     const std::optional<DataFile> data = read_at(design, directory / name);
     if (!data) continue;
-    throw InputError(
-        {data->key_path.empty() ? design.file.string() : design.where(data->key_path),
-         key_of(*data) + ": " + data->file.string() + " is read by this command, too",
-         "Files are called after their design: " + name + " would take its place in " + directory.string() +
-             ", and what it holds would be lost.",
-         "another directory for the files, or another name for " + data->file.filename().string()});
+    throw InputError({data->key_path.empty() ? design.file.string() : design.where(data->key_path),
+                      key_of(*data) + ": " + data->file.string() + " is read by this command, too",
+                      "Files are called after their design: " + name + " would take its place in " +
+                          directory.string() + ", and what it holds would be lost.",
+                      "another directory, or another name for " + data->file.filename().string()});
   }
 }
 

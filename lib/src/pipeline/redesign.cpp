@@ -1,12 +1,15 @@
 #include "glissade/pipeline/redesign.hpp"
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/centerline/track_from.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/pipeline/rules.hpp"
 
+#include "optimize/stopped.hpp"
 #include "pipeline/extremes.hpp"
+#include "pipeline/search_goes_on.hpp"
 
 #include <algorithm>
 #include <array>
@@ -140,6 +143,18 @@ RedesignShape attempted(const std::string& name, const TakeOff& take_off,
   }
 }
 
+/// The same of one that letters make.
+RedesignShape lettered(const std::string& name, const TakeOff& take_off,
+                       const std::function<InRunShape()>& make) {
+  std::optional<InRunShape> letters;
+  RedesignShape shape = attempted(name, take_off, [&] {
+    letters = make();
+    return std::make_shared<const InRun>(*letters);
+  });
+  if (shape.track != nullptr) shape.letters = letters;
+  return shape;
+}
+
 std::string name_of(InRunTransition transition) {
   switch (transition) {
     case InRunTransition::cubic:
@@ -162,8 +177,8 @@ void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, dou
     if (other == certificate.transition) continue;
     InRunShape shape = certificate;
     shape.transition = other;
-    shapes.push_back(attempted("its letters, " + name_of(other), take_off,
-                               [&] { return std::make_shared<const InRun>(reaching(shape, take_off)); }));
+    shapes.push_back(
+        lettered("its letters, " + name_of(other), take_off, [&] { return reaching(shape, take_off); }));
   }
   shapes.push_back(attempted("power curve (after Zanevskyy)", take_off, [&] {
     return std::make_shared<const ClothoidSpline>(power_in_run(certificate, take_off));
@@ -284,45 +299,72 @@ class FreeShape {
   /// @param places  counted from the edge
   FreeShape(const Design& design, const RedesignOptions& options, const InRunShape& certificate,
             const RuledLetters& ruled, const TakeOff& take_off, const Problem& places)
-      : options_(options), certificate_(certificate), take_off_(take_off) {
+      : options_(options),
+        certificate_(certificate),
+        ruled_(ruled),
+        take_off_(take_off),
+        places_(places),
+        start_area_(start_area_of(design)) {
     table_ = ruled.table ? ruled.table->value : certificate.t;
-    const double alpha = certificate.alpha.radians();
-    problem_.limits = moved(places.limits, {table_ * math::cos(alpha), table_ * math::sin(alpha)});
+    problem_.limits = limits_above(table_);
     problem_.places_from = PlacesFrom::finish;
     problem_.body = take_off.body;
     problem_.gravity = take_off.gravity;
-    Limits& limits = problem_.limits;
-    limits.slope_angle.highest = ruled.steepest ? ruled.steepest->value : certificate.gamma.radians();
-    limits.exit_slope_angle = Range::fixed(certificate.alpha.radians());
-    limits.concave = true;
-    limits.lead_in = start_area_of(design);
-    if (options.goal != RedesignGoal::least_load)
-      limits.smallest_valley_radius = ruled.radius ? ruled.radius->value : certificate.r1;
-    if (options.goal != RedesignGoal::least_curvature_rate) {
-      limits.highest_curvature_rate = options.curvature_rate ? options.curvature_rate : rate_of(certificate);
-    }
     set_goal();
   }
 
+  /// What it is to be the least of.
+  [[nodiscard]] double value_of(const RedesignShape& shape) const {
+    switch (options_.goal) {
+      case RedesignGoal::least_drop:
+        return shape.ends.drop;
+      case RedesignGoal::least_length:
+        return shape.length;
+      case RedesignGoal::least_load:
+        return shape.highest_load;
+      case RedesignGoal::least_curvature_rate:
+        return shape.curvature_rate;
+      case RedesignGoal::exit_speed:
+        break;
+    }
+    return -shape.take_off_speed;
+  }
+
+  /// @return the best shape that keeps all that is asked of the free one; null where none does
+  [[nodiscard]] const RedesignShape* best_of(const std::vector<RedesignShape>& shapes) const {
+    const RedesignShape* best = nullptr;
+    for (const RedesignShape& shape : shapes) {
+      if (keeps(shape) && (best == nullptr || value_of(shape) < value_of(*best))) best = &shape;
+    }
+    return best;
+  }
+
+  /// @param known  whether there is a shape to tell where none is found
   /// @return the whole track, its table included
-  CenterlinePtr found(const RunContext& context, std::optional<OptimizeReport>& report) {
+  /// @throws ConvergenceError if there is none; Interrupted if it was to end before there was one, and none is known
+  CenterlinePtr found(const RunContext& context, bool known, std::optional<OptimizeReport>& report) {
+    const SearchGoesOn goes_on(context);
     OptimizeOptions options;
     options.time_budget = context.time_budget;
-    const bool given_speed = options_.goal != RedesignGoal::exit_speed;
-    double wanted = given_speed ? speed_above_table() : 0.0;
+    double wanted = is_speed_given() ? speed_above_table() : 0.0;
     CenterlinePtr track;
     // A skier's centre of mass feels the end of the bend: the speed above the table is corrected by what is missed.
     constexpr int kMostRounds = 4;
-    constexpr double kEnough = 1e-7;
     for (int round = 0; round < kMostRounds; ++round) {
-      if (given_speed) problem_.limits.exit_speed.lowest = wanted;
+      if (is_speed_given()) problem_.limits.exit_speed.lowest = wanted;
       Optimum optimum = optimize(problem_, options, context.stop, context.progress);
+      const bool stopped = context.stop.stop_requested();
+      if (!optimum.centerline && stopped && track == nullptr && !known)
+        throw Interrupted({"", "interrupted in the search", "", ""});
+      // Of a round that was stopped before it came to a track the one before is the best so far.
+      if (!optimum.centerline && stopped && track != nullptr) {
+        optimizer::tell_stopped(*report);
+        break;
+      }
       report = std::move(optimum.report);
-      // What a search was stopped at is no answer to how low an in-run may be.
-      if (context.stop.stop_requested()) throw Interrupted({"", "interrupted in the search", "", ""});
       if (!optimum.centerline) throw ConvergenceError({"", report->message, "", ""});
       track = with_table(*optimum.centerline);
-      if (!given_speed) break;
+      if (!is_speed_given() || stopped) break;
       const Motion motion(track, take_off_.body, take_off_.gravity);
       const double miss = take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
       if (std::fabs(miss) < kEnough * take_off_.speed) break;
@@ -357,6 +399,52 @@ class FreeShape {
     problem_.endpoints = {0.0, drop - table_ * math::sin(certificate_.alpha.radians())};
   }
 
+  static constexpr double kEnough = 1e-7;  // accuracy: of the take-off speed
+
+  [[nodiscard]] bool is_speed_given() const { return options_.goal != RedesignGoal::exit_speed; }
+
+  /// What is asked of the way to a table of that length.
+  [[nodiscard]] Limits limits_above(double table) const {
+    const double alpha = certificate_.alpha.radians();
+    Limits limits = moved(places_.limits, {table * math::cos(alpha), table * math::sin(alpha)});
+    limits.slope_angle.highest = ruled_.steepest ? ruled_.steepest->value : certificate_.gamma.radians();
+    limits.exit_slope_angle = Range::fixed(alpha);
+    limits.concave = true;
+    limits.lead_in = start_area_;
+    if (options_.goal != RedesignGoal::least_load)
+      limits.smallest_valley_radius = ruled_.radius ? ruled_.radius->value : certificate_.r1;
+    if (options_.goal != RedesignGoal::least_curvature_rate) {
+      limits.highest_curvature_rate =
+          options_.curvature_rate ? options_.curvature_rate : rate_of(certificate_);
+    }
+    return limits;
+  }
+
+  /// Whether a shape with a table of its own, no shorter, keeps all that is asked of the free one.
+  [[nodiscard]] bool keeps(const RedesignShape& shape) const {
+    constexpr double kRounding = 1e-9;  // rounding: of lengths that are sums
+    constexpr double kLevel = 1e-6;     // accuracy: of the drop, as searches meet it [m]
+    if (shape.track == nullptr || !shape.problem.empty()) return false;
+    if (is_speed_given() && shape.take_off_speed < (1.0 - kEnough) * take_off_.speed) return false;
+    const double drop = InRun(certificate_).endpoints().drop;
+    if (problem_.finish.kind == FinishKind::level && std::fabs(shape.ends.drop - drop) > kLevel) return false;
+    const std::vector<double> breaks = shape.track->breaks();
+    const double begins = breaks[breaks.size() - 2];
+    const double table = shape.length - begins;
+    const bool straight = shape.track->direction(begins + 0.5 * table).curvature == 0.0;
+    if (!straight || begins == 0.0 || table < (1.0 - kRounding) * table_) return false;
+    if (straight_of(*shape.track) < (1.0 - kRounding) * start_area_) return false;
+    Problem above = problem_;
+    above.limits = limits_above(table);
+    above.limits.lead_in = 0.0;  // looked at already
+    above.finish.kind = FinishKind::anywhere;
+    above.objective = {};
+    const auto way = std::make_shared<const TrackFrom>(shape.track, 0.0, begins);
+    above.endpoints = way->endpoints();
+    const std::vector<LimitCheck> checks = check_limits(above, way);
+    return std::all_of(checks.begin(), checks.end(), [](const LimitCheck& check) { return check.kept(); });
+  }
+
   /// The speed where the table begins that gives the take-off speed at its end.
   [[nodiscard]] double speed_above_table() const {
     const auto table = std::make_shared<const ClothoidSpline>(
@@ -383,10 +471,36 @@ class FreeShape {
 
   const RedesignOptions& options_;
   const InRunShape& certificate_;
+  const RuledLetters& ruled_;
   const TakeOff& take_off_;
+  const Problem& places_;
+  double start_area_;
   double table_ = 0.0;
   Problem problem_;
 };
+
+/// The free shape. Where a search ended with a worse one than is known, or with none, what is known is the answer.
+RedesignShape free_shape(FreeShape& search, const RunContext& context, Redesign& result) {
+  const RedesignShape* const known = search.best_of(result.shapes);
+  const std::string name = "free, " + std::string(word(result.goal));
+  RedesignShape found = attempted(name, result.take_off,
+                                  [&] { return search.found(context, known != nullptr, result.search); });
+  constexpr double kBetter = 1e-6;  // rounding: by less two routes to one shape differ
+  if (known == nullptr || !result.search) return found;
+  const double least = search.value_of(*known);
+  const bool is_worse = found.track == nullptr || search.value_of(found) > least + kBetter * std::fabs(least);
+  if (!is_worse) return found;
+  OptimizeReport& report = *result.search;
+  report.status = OptimizeStatus::feasible_not_converged;
+  report.message += "; no better shape is known than this one: " + known->name;
+  report.first_order_residual = HUGE_VAL;
+  report.finer_mesh_wins.reset();
+  report.active.clear();
+  report.conflict = {};
+  found = *known;
+  found.name = name;
+  return found;
+}
 
 // --- prices ------------------------------------------------------------------------------------------
 
@@ -593,15 +707,16 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   }
 
   result.shapes.push_back(ridden("certificate", track.centerline, take_off));
+  result.shapes.back().letters = certificate;
   const bool moved = std::fabs(result.shapes.front().take_off_speed / take_off.speed - 1.0) > 1e-9;
   if (moved) {
-    result.shapes.push_back(attempted("its letters, at that speed", take_off, [&] {
-      return std::make_shared<const InRun>(reaching(certificate, take_off));
-    }));
+    result.shapes.push_back(
+        lettered("its letters, at that speed", take_off, [&] { return reaching(certificate, take_off); }));
   }
   find_within_rules(design, certificate, context, ruled, result);
   result.shapes.push_back(
       ridden("its letters within the rules", std::make_shared<const InRun>(result.within_rules), take_off));
+  result.shapes.back().letters = result.within_rules;
   result.prices = prices_of(result.within_rules, take_off, ruled);
   constexpr double kJust = 1.0 + 1e-6;  // rounding: of a straight that gamma has given way for
   const bool just_fits = InRun(result.within_rules).transition_begins() <= kJust * result.start_area;
@@ -611,32 +726,44 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   const double radius = ruled.radius ? ruled.radius->value : certificate.r1;
   add_comparisons(certificate, take_off, v0 * v0 / radius, result.shapes);
   const Problem places = places_to_edge(design, result.shapes.front().ends);
-  result.shapes.push_back(attempted("free, " + std::string(word(options.goal)), take_off, [&] {
-    return FreeShape(design, options, certificate, ruled, take_off, places).found(context, result.search);
-  }));
+  FreeShape search(design, options, certificate, ruled, take_off, places);
+  result.shapes.push_back(free_shape(search, context, result));
   hold_against(places, result.shapes);
   hold_to_area(result.start_area, result.shapes);
   return result;
 }
 
+std::optional<Issue> Redesign::search_problem() const {
+  const RedesignShape& free = shapes.back();
+  if (free.track == nullptr) return Issue{"", "there is no free shape: " + free.problem, "", ""};
+  if (!search || search->status == OptimizeStatus::optimal) return {};
+  const bool early = search->ended_early;
+  return Issue{"",
+               std::string("the search for the free shape ") +
+                   (early ? "ended early: " : "did not converge: ") + search->message,
+               "It keeps every limit, but a better shape may be near.",
+               early ? "a larger --time-budget" : "another goal; more time would not help"};
+}
+
 Design redesigned(const Design& design, const Redesign& found, bool free) {
   Design result = design;
-  const CenterlinePtr& track = found.shapes.back().track;
-  if (free && track == nullptr) throw ConvergenceError({"", found.shapes.back().problem, "", ""});
+  const RedesignShape& shape = found.shapes.back();
+  if (free && shape.track == nullptr) throw ConvergenceError({"", shape.problem, "", ""});
   InRunDesign& letters = result.centerline.in_run;
   const double area = letters.start_area().value_or(0.0);
   // Rules count with the speed that it was found for.
   if (!result.hill.design_speed) result.hill.design_speed = found.take_off.speed;
-  if (!free) {
-    const InRunShape& shape = found.within_rules;
-    letters.gamma = shape.gamma;
-    letters.r1 = shape.r1;
-    letters.t = shape.t;
-    letters.e1 = shape.length - (letters.counts_to_edge ? 0.0 : shape.t);
+  const std::optional<InRunShape> made_by = free ? shape.letters : found.within_rules;
+  if (made_by) {
+    letters.gamma = made_by->gamma;
+    letters.transition = made_by->transition;
+    letters.r1 = made_by->r1;
+    letters.t = made_by->t;
+    letters.e1 = made_by->length - (letters.counts_to_edge ? 0.0 : made_by->t);
     letters.e2.reset();
     if (area > 0.0) letters.es = area;
   } else {
-    const auto& spline = dynamic_cast<const ClothoidSpline&>(*track);
+    const auto& spline = dynamic_cast<const ClothoidSpline&>(*shape.track);
     if (result.gates && !result.gates->start_area) result.gates->start_area = area;
     // What an in-run is held against by its kind is asked for by name.
     const bool circle = letters.transition == InRunTransition::circle;
@@ -649,11 +776,11 @@ Design redesigned(const Design& design, const Redesign& found, bool free) {
     }
   }
   // The edge is where it was: the start follows.
-  const Endpoints ends = free ? found.shapes.back().ends : InRun(found.within_rules).endpoints();
+  const Endpoints ends = made_by ? InRun(*made_by).endpoints() : shape.ends;
   const Placement from = Placement::through(design.track.start, design.track.finish);
   const Vec3 miss = design.track.finish - from.to_space(ends.run, ends.drop, 0.0);
   result.track.start = from.start() + miss;
-  if (free) {
+  if (!made_by) {
     result.track.edge.reset();
     result.track.azimuth = {};
     result.track.finish_given = true;

@@ -177,7 +177,15 @@ ReportCheck search(const Design& design, const OptimizeReport& search) {
   std::string name = searched_name(design);
   name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
   return {std::move(name), verdict(optimal),
-          std::string(to_text(search.status)) + ": " + search.convergence_text()};
+          std::string(to_text(search.status)) + ": " + (optimal ? "" : search.message + "; ") +
+              search.convergence_text()};
+}
+
+/// Of a hood that was chosen with its track.
+void add_hood_check(const Track& track, std::vector<ReportCheck>& checks) {
+  if (track.early_hood)
+    checks.push_back(
+        {"Hood of the best transfer", Verdict::fail, "not converged: " + track.early_hood->message});
 }
 
 std::vector<ReportLimit> limits_of(const Track& track) {
@@ -255,6 +263,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   input.checks.push_back(optimality(track));
   input.checks.back().of_nominal = true;
   if (track.search) input.checks.push_back(search(design, *track.search));
+  add_hood_check(track, input.checks);
   input.checks.push_back(limits(input.limits));
   if (build.swept != nullptr) {
     input.checks.push_back(watertight(build.swept->facts, build.swept->solid));

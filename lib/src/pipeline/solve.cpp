@@ -16,6 +16,7 @@
 #include "pipeline/hood.hpp"
 #include "pipeline/limits.hpp"
 #include "pipeline/located.hpp"
+#include "pipeline/search_goes_on.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -145,28 +146,35 @@ double highest_floor_wear(const Design& design, const CenterlinePtr& centerline)
   return wear_of(motions).floor.value;
 }
 
-/// While it lives, a request to stop is met by a search; the work then goes on with what that found.
-class SearchGoesOn {
- public:
-  explicit SearchGoesOn(const RunContext& context) : context_(context) { tell(true); }
-  ~SearchGoesOn() { tell(context_.stop.stop_requested()); }
-  SearchGoesOn(const SearchGoesOn&) = delete;
-  SearchGoesOn& operator=(const SearchGoesOn&) = delete;
-
- private:
-  void tell(bool goes_on) const {
-    if (context_.goes_on_after_stop != nullptr) *context_.goes_on_after_stop = goes_on;
-  }
-  const RunContext& context_;
-};
-
 Optimum search_that_may_end(const Design& design, const RunContext& context) {
   const SearchGoesOn goes_on(context);
   return search_within_limits(design, context);
 }
 
-/// The same search for the travel time, which prices what it was given up for. None where the work was asked to end: what it
-/// found by then would price nothing.
+/// The same with a track that is known: it is the best so far where the search is to end before it finds any.
+/// @param known  of the same design; none where nothing is known
+Optimum search_from(std::optional<Optimum> known, const Design& design, const RunContext& context) {
+  if (!known) return search_that_may_end(design, context);
+  const auto so_far = [&] {
+    optimizer::tell_stopped(known->report);
+    return *std::move(known);
+  };
+  if (context.stop.stop_requested()) return so_far();
+  try {
+    return search_that_may_end(design, context);
+  } catch (const Interrupted&) {
+    return so_far();
+  } catch (const NoTrackFound& none) {
+    if (!none.report().ended_early) throw;
+    known->report.ended_early = true;
+    known->report.status = OptimizeStatus::feasible_not_converged;
+    known->report.message = "the time budget ran out: the best track so far";
+    return *std::move(known);
+  }
+}
+
+/// The same search for the travel time, which prices what it was given up for. None where it was asked to end, or ran out of time:
+/// what it found by then would price nothing.
 std::optional<FastestWithin> fastest_within(Design design, const RunContext& context) {
   const ObjectiveKind kind = design.objective.kind;
   if (kind != ObjectiveKind::least_wear && kind != ObjectiveKind::least_peak_wear &&
@@ -176,7 +184,7 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
   design.objective.kind = ObjectiveKind::travel_time;
   try {
     const Optimum optimum = search_that_may_end(design, context);
-    if (context.stop.stop_requested()) return {};
+    if (optimum.report.ended_early) return {};
     const Motion motion(optimum.centerline, body_of(design), design.gravity);
     if (!motion.arrived()) return {};
     FastestWithin fastest{motion.travel_time(), motion.at(motion.distance()).friction_loss};
@@ -188,7 +196,8 @@ std::optional<FastestWithin> fastest_within(Design design, const RunContext& con
 }
 
 /// solve() of a sound design whose hood is known.
-Track solve_settled(const Design& design, const RunContext& context) {
+/// @param rough  a track that its limits keep, where one is known
+Track solve_settled(const Design& design, std::optional<Optimum> rough, const RunContext& context) {
   if (context.progress) context.progress("finding the track", {});
   // The closed form knows neither limits, nor a finish that it may choose, nor drag, nor bodies but the sliding
   // point.
@@ -197,7 +206,7 @@ Track solve_settled(const Design& design, const RunContext& context) {
   if (design.centerline.kind != CenterlineKind::fastest)
     return ride(design, make_centerline(design), context);
   if (!searched) return ride_fastest(design, context);
-  Optimum optimum = search_that_may_end(design, context);
+  Optimum optimum = search_from(std::move(rough), design, context);
   const bool has_met_request = optimum.report.ended_early && context.stop.stop_requested();
   if (context.progress) context.progress("riding the track", {});
   Track track = ride(design, std::move(optimum.centerline), context);
@@ -210,13 +219,27 @@ Track solve_settled(const Design& design, const RunContext& context) {
   return track;
 }
 
+/// A track below a hood that is not known to be the best one is not known to be the best either.
+void tell_of_hood(std::optional<EarlyHood> search, Track& track) {
+  if (!search) return;
+  track.early_hood = std::move(search);
+  if (!track.search) return;
+  OptimizeReport& report = *track.search;
+  if (report.status != OptimizeStatus::optimal && !report.ended_early) return;
+  report.status = OptimizeStatus::feasible_not_converged;
+  report.message = track.early_hood->message;
+  report.ended_early = report.ended_early || track.early_hood->ended_early;
+}
+
 }  // namespace
 
 Track solve(const Design& given, const RunContext& context) {
   require_sound(given);
-  const Design design = settled(given, context);
-  if (auto problem = hood_problem(design)) throw InfeasibleError(*std::move(problem));
-  return solve_settled(design, context);
+  SettledDesign settled = pipeline::settled(given, context);
+  if (auto problem = hood_problem(settled.design)) throw InfeasibleError(*std::move(problem));
+  Track track = solve_settled(settled.design, std::move(settled.rough), context);
+  tell_of_hood(std::move(settled.hood_search), track);
+  return track;
 }
 
 }  // namespace glissade

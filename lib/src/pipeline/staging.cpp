@@ -27,8 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 FileError failure(const fs::path& path, const std::string& what, const std::error_code& reason) {
-  return FileError(
-      {path.string(), what + ": " + reason.message(), "", "another directory with -o, or free space"});
+  return FileError({path.string(), what + ": " + reason.message(), "", "another directory, or free space"});
 }
 
 fs::path without_trailing_slash(const fs::path& path) {
@@ -80,7 +79,7 @@ void require_same_design(const fs::path& target, const std::string& owner, const
   throw FileError(
       {target.string(), "it holds files of another design of the same name, " + other->string(),
        "Files are called after their design: those of " + design.string() + " would replace them.",
-       "another directory with -o, or another name for one of the design files"});
+       "another directory, or another name for one of the design files"});
 }
 
 namespace {
@@ -152,7 +151,7 @@ void Staging::require_of_no_other(const std::vector<std::string>& in_the_way) co
   throw FileError({(target_ / theirs->name).string(),
                    "a build of another design, " + theirs->design.string() + ", wrote this file",
                    "Files are called after their design: " + owner_ + " has one of the same name.",
-                   "another directory with -o, or another name for one of the design files"});
+                   "another directory, or another name for one of the design files"});
 }
 
 Published Staging::publish() {
@@ -176,8 +175,8 @@ Published Staging::publish() {
   for (const std::string& name : names_) {
     const fs::path place = target_ / name;
     if (fs::is_directory(place)) {
-      throw FileError({place.string(), "a directory has the name of a file to be written", "",
-                       "another directory with -o"});
+      throw FileError(
+          {place.string(), "a directory has the name of a file to be written", "", "another directory"});
     }
     if (in_the_way.contains(name)) {
       published.set_aside.push_back(name_to_keep(place));

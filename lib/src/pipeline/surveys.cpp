@@ -123,11 +123,13 @@ std::string survey_json(const Design& design, const Survey& survey, const Survey
   for (const SurveyGap& gap : survey.gaps) json["gaps"].push_back({{"from_m", gap.from}, {"to_m", gap.to}});
   json["from_m"] = rides.from;
   json["to_m"] = rides.to;
+  json["before_start_m"] = survey.before_start;
+  json["beyond_end_m"] = survey.beyond_end;
   json["as_built"] = Json::object();
   add_ride(json["as_built"], rides.as_built);
   const bool comes = rides.designed.distance() >= rides.to;
   json["designed_speed_at_end_m_per_s"] = comes ? number(rides.designed.at(rides.to).speed) : Json(nullptr);
-  json["designed_max_normal_load_m_per_s2"] = number(rides.designed.highest_load().normal_load);
+  json["designed_max_normal_load_m_per_s2"] = number(rides.designed_there.highest_load().normal_load);
   json["points"] = Json::array();
   for (const SurveyedPlace& place : survey.places) {
     json["points"].push_back({{"name", place.name},

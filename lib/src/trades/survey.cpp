@@ -1,5 +1,6 @@
 #include "glissade/trades/survey.hpp"
 
+#include "glissade/centerline/track_from.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
@@ -117,8 +118,10 @@ std::vector<std::pair<Foot, SurveyPoint>> footed(const Centerline& design,
     feet.emplace_back(foot, point);
   }
   if (!issues.empty()) throw InputError(std::move(issues));
+  // What lies before the start or beyond the end has its foot there: among them the way along the tangent tells.
+  const auto way = [](const Foot& foot) { return foot.arc_length + foot.beyond; };
   std::stable_sort(feet.begin(), feet.end(),
-                   [](const auto& a, const auto& b) { return a.first.arc_length < b.first.arc_length; });
+                   [&](const auto& a, const auto& b) { return way(a.first) < way(b.first); });
   return feet;
 }
 
@@ -185,10 +188,15 @@ Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& point
   Survey survey;
   survey.as_built = std::make_shared<const FittedProfile>(std::move(moved));
   const FootFinder built(*survey.as_built);
+  const auto on_built = [&](const CenterlinePoint& designed) {
+    return built.of({"", designed.x - first.x, designed.drop - first.y, 0.0}).arc_length;
+  };
+  if (feet.front().first.beyond < 0.0) survey.before_start = on_built(design.at(0.0));
+  if (feet.back().first.beyond > 0.0)
+    survey.beyond_end = survey.as_built->length() - on_built(design.at(design.length()));
   for (const auto& [foot, point] : feet) {
     const CenterlinePoint designed = design.at(foot.arc_length);
-    SurveyPoint there{point.name, designed.x - first.x, designed.drop - first.y, 0.0};
-    const CenterlinePoint as_built = survey.as_built->at(built.of(there).arc_length);
+    const CenterlinePoint as_built = survey.as_built->at(on_built(designed));
     survey.places.push_back({point.name, foot.arc_length, foot.above - options.height, point.aside,
                              Angle::from_radians(as_built.slope_angle),
                              Angle::from_radians(as_built.slope_angle - designed.slope_angle),
@@ -199,6 +207,20 @@ Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& point
   return survey;
 }
 
+namespace {
+
+/// Of a survey that lies before the start or beyond the end of its track, all but a point or so.
+void require_ridden(const Survey& survey, double from, double to) {
+  const double built = survey.as_built->length() - survey.before_start - survey.beyond_end;
+  if (to > from && built > 0.0) return;
+  throw InputError(
+      {"points",
+       "they lie before the start of the track or beyond its end, and none of it between two of them",
+       "Both rides are on what lies between the first point and the last.", "points along the track"});
+}
+
+}  // namespace
+
 SurveyRides ride_survey(const CenterlinePtr& design, const Survey& survey, const Body& body, double gravity) {
   Motion designed(design, body, gravity);
   // A reading or two of a millimetre: the survey begins at the start.
@@ -206,7 +228,8 @@ SurveyRides ride_survey(const CenterlinePtr& design, const Survey& survey, const
   const double first = survey.places.front().arc_length;
   const double from = first > kAtStart ? first : 0.0;
   const double to = survey.places.back().arc_length;
-  Body entering = body;
+  require_ridden(survey, from, to);
+  Body entering = body_from(body, from);
   if (from > 0.0) {
     if (designed.distance() < from) {
       throw InfeasibleError({"",
@@ -214,10 +237,16 @@ SurveyRides ride_survey(const CenterlinePtr& design, const Survey& survey, const
                                  " down the track",
                              "", "less friction, or a survey that begins at the start"});
     }
+    // It is on its track by then.
     entering.entry_speed = designed.at(from).speed;
+    entering.landing.reset();
+    entering.approach.reset();
   }
-  Motion as_built(survey.as_built, entering, gravity);
-  return {from, to, std::move(designed), std::move(as_built)};
+  Motion there(std::make_shared<const TrackFrom>(design, from, to), entering, gravity);
+  const auto ridden = std::make_shared<const TrackFrom>(survey.as_built, survey.before_start,
+                                                        survey.as_built->length() - survey.beyond_end);
+  Motion as_built(ridden, entering, gravity);
+  return {from, to, std::move(designed), std::move(there), std::move(as_built)};
 }
 
 }  // namespace glissade

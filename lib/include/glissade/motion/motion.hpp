@@ -74,6 +74,11 @@ struct Body {
 /// @return how a body comes down on the start of its track; none of one that enters along it
 [[nodiscard]] std::optional<Landing> landing_of(const Body& body);
 
+/// The body on the part of its track from a place on: its friction, and the law where that changes along the track, are those
+/// of there. How it enters stays what it is.
+/// @param start  arc length of the whole track [m]; >= 0
+[[nodiscard]] Body body_from(Body body, double start);
+
 /// Whether a body is the sliding point of Coulomb's law with one friction everywhere and no wind, whose
 /// optimum without limits, constant-speed track and reach have closed forms (docs/theory.md).
 [[nodiscard]] bool is_sliding_point(const Body& body);

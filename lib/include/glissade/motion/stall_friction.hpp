@@ -18,7 +18,8 @@ inline constexpr double kStallFrictionAccuracy = 1e-6;
 /// leaves the track has not stalled.
 /// What comes down from a hood (Body::approach) falls away from it beyond some friction, and misses the track: the first
 /// friction counts at which a ride from the body's own on no longer goes through, and there is none if what ends it is that.
-/// Where friction changes along the track, every change is shifted by the same angle as the body's own.
+/// Where friction changes along the track, every change is shifted by the same angle as the body's own, down to 0 and up to
+/// 89.9 deg (its own, if it is more).
 /// Accuracy: kStallFrictionAccuracy; never above the true angle by more than that.
 /// @return 0 if the body stalls without any friction; none if it does not stall below 89.9 deg, or misses the track before it
 ///         would

@@ -49,6 +49,8 @@ struct RedesignShape {
       breaks;  ///< clearances and waypoints of the design that it does not keep: "keep_outs[0]"
   /// How far it is straight from its start on, where that is shorter than the start area: gates would lie in the bend [m].
   std::optional<double> short_straight;
+  std::optional<InRunShape>
+      letters;  ///< that make it; none of a free shape, and of curves that have no letters
 };
 
 /// What one letter of the certificate costs in drop, at the take-off speed.
@@ -70,12 +72,17 @@ struct LetterPrice {
 /// A certificate beside what the rules would allow.
 struct Redesign {
   RedesignGoal goal = RedesignGoal::least_drop;
-  double start_area = 0.0;               ///< along which gates lie; 0: none is given [m]
-  TakeOff take_off;                      ///< at its speed all shapes are compared, but that of highest speed
-  std::vector<RedesignShape> shapes;     ///< the certificate first, the free shape last
-  InRunShape within_rules;               ///< the letters of the lowest certificate within the rules
-  std::vector<LetterPrice> prices;       ///< of those letters
-  std::optional<OptimizeReport> search;  ///< of the free shape, from its start to the table
+  double start_area = 0.0;            ///< along which gates lie; 0: none is given [m]
+  TakeOff take_off;                   ///< at its speed all shapes are compared, but that of highest speed
+  std::vector<RedesignShape> shapes;  ///< the certificate first, the free shape last
+  InRunShape within_rules;            ///< the letters of the lowest certificate within the rules
+  std::vector<LetterPrice> prices;    ///< of those letters
+  /// Of the free shape, from its start to the table. Where that ended with a worse one than a shape that is known and keeps all
+  /// that was asked of it, that shape is the free one, and the message says so.
+  std::optional<OptimizeReport> search;
+
+  /// @return why the free shape is not known to be the best, or that there is none; none if it is
+  [[nodiscard]] std::optional<Issue> search_problem() const;
 };
 
 /// Compares an in-run with others that give the same take-off speed: its own letters at the bounds of the rules, other
@@ -88,12 +95,14 @@ struct Redesign {
 /// design_radial_acceleration, table_length or table_time; a letter that no rule bounds stays. alpha stays, too: the jump
 /// decides it. Where the steepest gamma leaves no straight along the start area, gamma gives way. Of the other shapes it is
 /// told. Where no design_speed is given the rules count with the take-off speed.
-/// @throws InputError if the design is of another kind than in-run, InfeasibleError if the body does not arrive
+/// A search that ends early ends with the best shape so far, or known.
+/// @throws InputError if the design is of another kind than in-run, InfeasibleError if the body does not arrive; Interrupted if it
+///         was asked to end before any such shape was there
 [[nodiscard]] Redesign redesign(const Design& design, const RedesignOptions& options,
                                 const RunContext& context);
 
 /// The free shape, or the certificate within the rules, as a design of its own.
-/// @param free  the shape that the search found, of kind segments; otherwise of kind in-run
+/// @param free  the shape that the search found, of kind segments, or in-run where it has letters; otherwise of kind in-run
 [[nodiscard]] Design redesigned(const Design& design, const Redesign& found, bool free);
 
 }  // namespace glissade

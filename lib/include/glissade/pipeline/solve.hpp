@@ -49,15 +49,15 @@ namespace glissade {
 /// @param design  with a feed
 [[nodiscard]] FeedFall feed_fall(const Design& design);
 
-/// How the stream of a ride comes down on the start of its track.
-/// @param design  with a stream
+/// How the stream of a ride comes down on the start of its track, at the density that it has on that ride.
+/// @param motion  of a stream
 /// @return none of one that enters along the track, or flies over the start (lands()); of one that stands where it lands the
 ///         impact that takes all of its speed
-[[nodiscard]] std::optional<Impact> impact_of(const Design& design, const Motion& motion);
+[[nodiscard]] std::optional<Impact> impact_of(const Motion& motion);
 
-/// How the stream of a ride lands on the belt of a design.
-/// @param design  with a stream and a discharge
-/// @param motion  arrived
+/// How the stream of a ride lands on the belt of a design, at the density that it has on that ride.
+/// @param design  with a discharge
+/// @param motion  of a stream, arrived
 [[nodiscard]] BeltLanding belt_landing(const Design& design, const Motion& motion);
 
 /// Where the stream of a track wears its chute, over every friction of the design at which it gets onto its track (enters()).
@@ -99,11 +99,16 @@ struct LinerLoss {
 /// @param context  its measures_optimum alone counts
 [[nodiscard]] Track ride(const Design& design, CenterlinePtr centerline, const RunContext& context = {});
 
-/// A track that stays as it is, ridden at another friction: nothing is searched or chosen anew. Its limits are
-/// held against that friction alone. Where friction changes along the track it is that of the start, and the others change by the
-/// same angle (up to 89.9 deg), as for stall_friction_angle().
+/// The same design at one other friction, without a range. Where friction changes along the track it is that of the start, and the
+/// others change by the same angle.
+/// @throws InputError at the friction that would then lie below 0 or above 89.994 deg, as none may
+[[nodiscard]] Design with_friction(Design design, const Friction& friction);
+
+/// A track that stays as it is, ridden by its design with_friction(): nothing is searched or chosen anew. Its limits are held against
+/// that friction alone.
 /// @param design      where the track and the rest of the body come from
 /// @param centerline  a track of that design
+/// @throws InputError as with_friction()
 [[nodiscard]] Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction);
 
 /// The friction angle from which on a track's body stalls on it: stall_friction_angle() of the nominal ride; none, too, of a
@@ -139,7 +144,7 @@ struct LinerLoss {
 /// @return the problem, every broken limit with the place and by how much; none if all are kept
 [[nodiscard]] std::optional<Issue> limits_problem(const Design& design, const Track& track);
 
-/// Whether a search within limits ended before it converged.
+/// Whether a search within limits, or that for a hood, ended before it converged.
 /// @return how it ended and what that means; none if it converged, or there was none
 [[nodiscard]] std::optional<Issue> search_problem(const Design& design, const Track& track);
 

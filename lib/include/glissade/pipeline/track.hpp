@@ -14,6 +14,7 @@
 #include <atomic>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,12 @@ struct FastestWithin {
   std::optional<double> floor_wear = {};
 };
 
+/// Why a hood that was chosen with its track is not known to be the best one.
+struct EarlyHood {
+  std::string message;       ///< "the time budget ran out: the best hood and track so far"
+  bool ended_early = false;  ///< asked to, or the time budget ran out
+};
+
 /// A centerline with the ride down it and the two rides that it is measured by.
 struct Track {
   Endpoints endpoints;
@@ -75,7 +82,7 @@ struct Track {
   /// names and the frame of the design file: finish.x, finish.z.
   std::optional<OptimizeReport> search;
   /// Of a search for less wear, less peak wear or more even speed: the fastest track within the same limits; none where the
-  /// search is for that, or where it failed.
+  /// search is for that, or where it failed or ended early.
   std::optional<FastestWithin> fastest_within;
   /// Every limit of the design, whatever the kind, as the referee finds it on this track; empty without
   /// limits. Places of an envelope are (x, z) as the design's limits give them.
@@ -86,6 +93,8 @@ struct Track {
   std::optional<GateTable> gates = {};
   /// The hood before it, as given or as the search chose it together with the track; none of a design without one.
   std::optional<HoodDesign> hood = {};
+  /// Where the search for the hood did not come to its end; `search`, if there is one, tells it, too.
+  std::optional<EarlyHood> early_hood = {};
 
   /// @return the rides at every friction that the design names, from low to high; the nominal one is always
   ///         among them. They live as long as the track.

@@ -61,6 +61,9 @@ struct Survey {
   bool within_tolerance = true;
   bool slope_within_tolerance = true;
   std::shared_ptr<const FittedProfile> as_built;  ///< from the first point to the last, the height taken off
+  /// How much of it lies before the start of the track and beyond its end: nobody rides there [m].
+  double before_start = 0.0;
+  double beyond_end = 0.0;
 
   [[nodiscard]] bool sound() const { return within_tolerance && slope_within_tolerance && gaps.empty(); }
 };
@@ -75,13 +78,15 @@ struct Survey {
 /// One body on the surveyed part of the track as it was built and as it was designed.
 struct SurveyRides {
   double from =
-      0.0;  ///< arc length of the design at the first point [m]; both rides have the designed speed there
-  double to = 0.0;  ///< at the last point [m]
-  Motion designed;  ///< of the whole design
-  Motion as_built;  ///< from `from` on
+      0.0;  ///< arc length of the design at the first point on it [m]; both rides have the designed speed there
+  double to = 0.0;        ///< at the last point on it [m]
+  Motion designed;        ///< of the whole design
+  Motion designed_there;  ///< of the design from `from` to `to`, or as far as the body comes
+  Motion as_built;        ///< from `from` to `to`, without what lies before the start or beyond the end
 };
 
 /// Rides both. Where the survey begins below the start, the ride as built enters with the designed speed.
+/// @throws InputError if the points leave nothing of the track to ride; InfeasibleError if the body does not come to the first one
 [[nodiscard]] SurveyRides ride_survey(const CenterlinePtr& design, const Survey& survey, const Body& body,
                                       double gravity = kDefaultGravity);
 

@@ -118,16 +118,7 @@ bool passes(const Gate& gate, double measuring_place) {
 
 Motion ride_from(const CenterlinePtr& track, double from_start, const Body& body, double gravity) {
   if (from_start == 0.0) return Motion(track, body, gravity);
-  Body shifted = body;
-  shifted.friction_changes.clear();
-  for (const FrictionChange& change : body.friction_changes) {
-    if (change.from > from_start) {
-      shifted.friction_changes.push_back({change.from - from_start, change.friction});
-    } else {
-      shifted.friction = change.friction;
-    }
-  }
-  return Motion(std::make_shared<const TrackFrom>(track, from_start), shifted, gravity);
+  return Motion(std::make_shared<const TrackFrom>(track, from_start), body_from(body, from_start), gravity);
 }
 
 std::vector<GateRide> ride_gates(const CenterlinePtr& track, const std::vector<Gate>& gates, const Body& body,

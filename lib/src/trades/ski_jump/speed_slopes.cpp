@@ -116,10 +116,11 @@ SpeedSlopes by_differences(const CenterlinePtr& track, double from_start, double
   constexpr double kLengthStep = 1e-3;  // [m]
   const auto with_friction = [&](double change) {
     Body other = body;
-    other.friction = Friction::from_coefficient(std::max(body.friction.coefficient() + change, 0.0));
-    for (FrictionChange& one : other.friction_changes) {
-      one.friction = Friction::from_coefficient(std::max(one.friction.coefficient() + change, 0.0));
-    }
+    const auto changed = [&](const Friction& friction) {
+      return Friction::from_coefficient(std::max(friction.coefficient() + change, 0.0));  // but for rounding
+    };
+    other.friction = changed(body.friction);
+    for (FrictionChange& one : other.friction_changes) one.friction = changed(one.friction);
     return speed(other, from_start);
   };
   const auto with_drag = [&](double change) {
@@ -128,7 +129,9 @@ SpeedSlopes by_differences(const CenterlinePtr& track, double from_start, double
     return speed(other, from_start);
   };
   // Steps end where a friction or a drag would be negative, or the track begins.
-  const double less_friction = std::min(kFrictionStep, body.friction.coefficient());
+  double less_friction = std::min(kFrictionStep, body.friction.coefficient());
+  for (const FrictionChange& one : body.friction_changes)
+    less_friction = std::min(less_friction, one.friction.coefficient());
   const double less_drag = std::min(kDragStep, body.drag_per_metre);
   const double higher = std::min(kLengthStep, from_start);
   SpeedSlopes slopes;
