@@ -153,7 +153,7 @@ TEST_CASE(
     const double length = random.between(0.1, 0.25);
     const double height = random.between(0.08, 0.16);
     const int bolt = std::vector<int>{5, 8, 10, 12}[i % 4];
-    options.inspection = {{random.between(0.9, 1.4), length, height, bolt}};
+    options.inspection = {{random.between(0.45, 1.85), length, height, bolt}};
     const double thick = 3e-3;
     const section::Measures trough =
         section::Trapezoid{WidthLaw(0.5), 0.5, Angle::from_degrees(random.between(2.0, 25.0)), thick};

@@ -131,14 +131,13 @@ double height_at(const SectionPlate& plate, double across) {
   return (plate.face_from + across * plate.way()).y;
 }
 
-/// The least length of lines along a plate, of what they have on the floor line.
-/// @param along   the stretch
+/// The least length of lines along a plate, anywhere on a stretch, of what they have on the floor line: flats keep theirs.
 /// @param across  between which places across the plate
 double least_share(const StripJob& job, const SectionPlate& plate, const Span& along, const Span& across) {
   double least = 1.0;
-  for (const double place : {across.from, across.to}) {
-    const double lost = job.lost_at(along, height_at(plate, place));
-    least = std::min(least, 1.0 - lost / (along.to - along.from));
+  for (const StripArc& one : job.arcs_in(along)) {
+    for (const double place : {across.from, across.to})
+      least = std::min(least, 1.0 - one.arc.curvature * height_at(plate, place));
   }
   return least;
 }
