@@ -352,6 +352,8 @@ class FreeShape {
     constexpr int kMostRounds = 4;
     for (int round = 0; round < kMostRounds; ++round) {
       if (is_speed_given()) problem_.limits.exit_speed.lowest = wanted;
+      // All rounds have one budget; where nothing is left of it the last one says so.
+      if (report) options.time_budget = std::max(kLeastBudget, options.time_budget - report->seconds);
       Optimum optimum = optimize(problem_, options, context.stop, context.progress);
       const bool stopped = context.stop.stop_requested();
       if (!optimum.centerline && stopped && track == nullptr && !known)
@@ -364,7 +366,8 @@ class FreeShape {
       report = std::move(optimum.report);
       if (!optimum.centerline) throw ConvergenceError({"", report->message, "", ""});
       track = with_table(*optimum.centerline);
-      if (!is_speed_given() || stopped) break;
+      // A round that was cut short missed the speed for that alone.
+      if (!is_speed_given() || stopped || report->ended_early) break;
       const Motion motion(track, take_off_.body, take_off_.gravity);
       const double miss = take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
       if (std::fabs(miss) < kEnough * take_off_.speed) break;
@@ -399,7 +402,8 @@ class FreeShape {
     problem_.endpoints = {0.0, drop - table_ * math::sin(certificate_.alpha.radians())};
   }
 
-  static constexpr double kEnough = 1e-7;  // accuracy: of the take-off speed
+  static constexpr double kEnough = 1e-7;       // accuracy: of the take-off speed
+  static constexpr double kLeastBudget = 1e-3;  // budget: [s]
 
   [[nodiscard]] bool is_speed_given() const { return options_.goal != RedesignGoal::exit_speed; }
 
