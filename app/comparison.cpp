@@ -144,6 +144,15 @@ bool ended_early(const Entry& entry) {
   return (track.search && track.search->ended_early) || (track.early_hood && track.early_hood->ended_early);
 }
 
+/// The track of a design at another friction.
+/// @throws InputError as with_friction(), at what the track meets
+Track at_friction(const Design& design, const Friction& friction,
+                  const std::function<Track(const Design&)>& make) {
+  Track track = make(with_friction(design, friction, 0.0));
+  static_cast<void>(with_friction(design, friction, track.centerline->length()));
+  return track;
+}
+
 /// One kind over friction angles.
 class OverFriction {
  public:
@@ -156,8 +165,9 @@ class OverFriction {
   /// @return none where nothing arrives, or a search ended early; what is searched for is not, once work is to end
   std::optional<Track> at(double angle_deg) {
     if (stopped_) return {};
+    const Friction friction = Friction::from_angle(Angle::from_degrees(angle_deg));
     Entry entry = entry_of(design_, [&](const Design& design) {
-      return track_of(with_friction(design, Friction::from_angle(Angle::from_degrees(angle_deg))));
+      return at_friction(design, friction, [this](const Design& moved) { return track_of(moved); });
     });
     if (!ended_early(entry)) return std::move(entry.track);
     ended_early_ = true;
@@ -293,10 +303,12 @@ std::vector<Entry> every_design(std::vector<Design> designs, const RunContext& c
 std::vector<Entry> friction_sweep(const Design& design, const std::vector<Friction>& frictions) {
   std::vector<Entry> entries;
   for (const Friction friction : frictions) {
-    Design swept = with_friction(of_kind(design, CenterlineKind::constant_speed), friction);
+    const Design own = of_kind(design, CenterlineKind::constant_speed);
     // The curve is there whether or not a body from rest arrives on it.
-    entries.push_back(
-        entry_of(std::move(swept), [](const Design& one) { return ride(one, make_centerline(one)); }));
+    Entry entry = entry_of(with_friction(own, friction, 0.0),
+                           [](const Design& one) { return ride(one, make_centerline(one)); });
+    if (entry.track) static_cast<void>(with_friction(own, friction, entry.track->centerline->length()));
+    entries.push_back(std::move(entry));
   }
   return entries;
 }

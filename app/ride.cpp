@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
@@ -83,12 +84,20 @@ std::vector<Friction> frictions_of(const RideArguments& options) {
                     "--friction-angle 14deg,16deg,18deg"});
 }
 
-/// Tells of every friction that the design cannot be ridden at, before its track is searched for.
-void require_rideable(const Design& design, const std::vector<Friction>& frictions) {
+/// What no track of a design is shorter than [m].
+double shortest_length_of(const Design& design) {
+  const bool is_given = design.track.free_finish == FinishKind::point && !is_drawn(design.centerline.kind);
+  const Endpoints ends = endpoints_of(design);
+  return is_given ? math::hypot(ends.run, ends.drop) : 0.0;
+}
+
+/// Tells of every friction that a track of the design cannot be ridden at.
+/// @param length  of the track, or the least that it can have [m]
+void require_rideable(const Design& design, const std::vector<Friction>& frictions, double length) {
   std::vector<Issue> issues;
   for (const Friction& friction : frictions) {
     try {
-      static_cast<void>(with_friction(design, friction));
+      static_cast<void>(with_friction(design, friction, length));
     } catch (const InputError& error) {
       issues.insert(issues.end(), error.issues().begin(), error.issues().end());
     }
@@ -122,8 +131,10 @@ std::string rides_summary(const Design& design, const Track& track, const std::v
 ExitCode ride_track(const RideArguments& options) {
   const std::vector<Friction> frictions = frictions_of(options);
   const Design design = read_design(options.design, options.overrides.values());
-  require_rideable(design, frictions);
+  // What the shortest track meets need not wait for a search.
+  require_rideable(design, frictions, shortest_length_of(design));
   const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
+  require_rideable(design, frictions, track.centerline->length());
   std::vector<Track> rides;
   rides.reserve(frictions.size());
   const Design solved = as_solved(design, track);

@@ -167,7 +167,7 @@ Friction of_degrees(double angle) {
 /// Why a design cannot have another friction at its start; empty if it can.
 std::string refusal(const Design& design, double angle) {
   try {
-    const Design other = with_friction(design, of_degrees(angle));
+    const Design other = with_friction(design, of_degrees(angle), 100.0);
     for (std::size_t i = 0; i < other.body.friction_changes.size(); ++i) {
       const double by = other.body.friction_changes[i].friction.angle().degrees() -
                         design.body.friction_changes[i].friction.angle().degrees();
@@ -203,6 +203,28 @@ TEST_CASE("another friction at the start moves all along the track by the same a
   }
 }
 
+TEST_CASE("friction that begins beyond the finish may be any, and has no effect") {
+  const Design design = with_angles({20.0, 8.0});
+  CHECK_THROWS_AS(with_friction(design, of_degrees(5.0), 5.1), InputError);
+  CHECK_NOTHROW(with_friction(design, of_degrees(5.0), 4.9));
+  const auto straight = [](const std::string& more) {
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 10 m}}\nbody: {friction: [{from: 0 m, angle: 15 deg}" +
+            more +
+            "]}\ncenterline: {kind: segments, entry_slope_angle: 30 deg, segments: [{length: 10 m}]}\n",
+        "d.yaml");
+  };
+  const Design plain = straight("");
+  for (const std::string beyond : {", {from: 40 m, angle: 2 deg}", ", {from: 10 m, angle: 89.9 deg}"}) {
+    const Design with = straight(beyond);
+    const CenterlinePtr track = make_centerline(with);
+    for (const double angle : {1.0, 5.0, 25.0}) {
+      CHECK(ride_at(with, track, of_degrees(angle)).motion.travel_time() ==
+            ride_at(plain, track, of_degrees(angle)).motion.travel_time());
+    }
+  }
+}
+
 TEST_CASE("what is refused for one friction along the track names that, and a friction that does") {
   const std::string told = refusal(with_angles({20.0, 8.0}), 5.0);
   CHECK_THAT(told, Contains("d.yaml:3:") &&
@@ -216,7 +238,7 @@ TEST_CASE("what is refused for one friction along the track names that, and a fr
   CHECK(refusal(with_angles({20.0, 80.0}), 29.99).empty());
   // Where nothing changes nothing is shifted, however steep.
   const Design own = with_angles({20.0, 89.95});
-  CHECK(with_friction(own, own.body.friction).body.friction_changes[1].friction ==
+  CHECK(with_friction(own, own.body.friction, 100.0).body.friction_changes[1].friction ==
         own.body.friction_changes[1].friction);
 }
 

@@ -438,7 +438,7 @@ std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr&
     // The design's own friction may be a coefficient: its angle and back is not the same double.
     const Friction friction =
         angle == nominal ? body.friction : Friction::from_angle(Angle::from_radians(angle));
-    const Body rubbed = body_of(with_friction(design, friction));
+    const Body rubbed = body_of(with_friction(design, friction, centerline->length()));
     for (const double factor : spread_with(stream.trickle, 1.0, kBeyondSurge * stream.surge, kFlows)) {
       const Body one = factor != 1.0 ? with_flow(rubbed, factor) : rubbed;
       rides.push_back({factor * stream.mass_flow, factor == 1.0 && angle == nominal,

@@ -33,8 +33,8 @@ namespace {
 /// By how much friction changes at the start, and all along with it.
 class FrictionShift {
  public:
-  FrictionShift(const Design& design, const Friction& friction)
-      : design_(design), asked_(friction), from_(design.body.friction) {}
+  FrictionShift(const Design& design, const Friction& friction, double length)
+      : design_(design), asked_(friction), from_(design.body.friction), length_(length) {}
 
   /// @param index  of the design's friction_changes
   [[nodiscard]] Friction of(std::size_t index) const {
@@ -43,7 +43,9 @@ class FrictionShift {
     if (friction == from_) return asked_;
     constexpr double kRounding = 1e-12;  // rounding: of angles there and back [rad]
     const double angle = friction.angle().radians() + by();
-    if (angle < -kRounding || angle > steepest() + kRounding) throw InputError(beyond(index, angle));
+    const bool is_reached = design_.body.friction_changes[index].from < length_;
+    if (is_reached && (angle < -kRounding || angle > steepest() + kRounding))
+      throw InputError(beyond(index, angle));
     const Friction shifted = Friction::from_angle(Angle::from_radians(std::clamp(angle, 0.0, steepest())));
     return std::min(shifted, Friction::from_coefficient(kRoughest));
   }
@@ -81,12 +83,13 @@ class FrictionShift {
   const Design& design_;
   Friction asked_;
   Friction from_;
+  double length_;
 };
 
 }  // namespace
 
-Design with_friction(Design design, const Friction& friction) {
-  const FrictionShift shift(design, friction);
+Design with_friction(Design design, const Friction& friction, double length) {
+  const FrictionShift shift(design, friction, length);
   std::vector<Friction> along;
   for (std::size_t i = 0; i < design.body.friction_changes.size(); ++i) along.push_back(shift.of(i));
   for (std::size_t i = 0; i < along.size(); ++i) design.body.friction_changes[i].friction = along[i];
@@ -99,7 +102,7 @@ Design with_friction(Design design, const Friction& friction) {
 }
 
 Track ride_at(Design design, const CenterlinePtr& centerline, const Friction& friction) {
-  return ride(with_friction(std::move(design), friction), centerline);
+  return ride(with_friction(std::move(design), friction, centerline->length()), centerline);
 }
 
 std::optional<Angle> stall_angle_of(const Track& track) {

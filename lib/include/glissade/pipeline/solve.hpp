@@ -101,8 +101,9 @@ struct LinerLoss {
 
 /// The same design at one other friction, without a range. Where friction changes along the track it is that of the start, and the
 /// others change by the same angle.
+/// @param length  of its track, as far as it is known [m]: what begins beyond has no effect, and may be any
 /// @throws InputError at the friction that would then lie below 0 or above 89.994 deg, as none may
-[[nodiscard]] Design with_friction(Design design, const Friction& friction);
+[[nodiscard]] Design with_friction(Design design, const Friction& friction, double length);
 
 /// A track that stays as it is, ridden by its design with_friction(): nothing is searched or chosen anew. Its limits are held against
 /// that friction alone.
