@@ -44,6 +44,22 @@ struct Crossing {
   return crossing;
 }
 
+/// Source: Y.-D. Liang and B. A. Barsky, ACM Transactions on Graphics 3 (1984) 1-22.
+/// @return whether some of the segment a to b lies in a rectangle along the axes; on its edges, too
+[[nodiscard]] inline bool touches_rectangle(Vec2 a, Vec2 b, Vec2 low, Vec2 high) {
+  double from = 0.0;
+  double to = 1.0;
+  const auto cut = [&](double at, double way, double least, double most) {
+    if (way == 0.0) return at >= least && at <= most;
+    const double first = (least - at) / way;
+    const double second = (most - at) / way;
+    from = std::max(from, std::min(first, second));
+    to = std::min(to, std::max(first, second));
+    return from <= to;
+  };
+  return cut(a.x, b.x - a.x, low.x, high.x) && cut(a.y, b.y - a.y, low.y, high.y);
+}
+
 /// @return true if the point lies within a simple polygon; on its edges either
 [[nodiscard]] inline bool is_inside(Vec2 point, const std::vector<Vec2>& polygon) {
   bool odd = false;

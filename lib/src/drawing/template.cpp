@@ -1,3 +1,4 @@
+#include "core/plane_geometry.hpp"
 #include "drawing/ink.hpp"
 
 #include <algorithm>
@@ -97,21 +98,6 @@ struct TilePlan {
   }
 };
 
-/// Whether the straight from a to b touches a box (Liang and Barsky).
-bool touches(const PlaneBox& box, Vec2 a, Vec2 b) {
-  double from = 0.0;
-  double to = 1.0;
-  const auto cut = [&](double at, double way, double low, double high) {
-    if (way == 0.0) return at >= low && at <= high;
-    const double first = (low - at) / way;
-    const double second = (high - at) / way;
-    from = std::max(from, std::min(first, second));
-    to = std::min(to, std::max(first, second));
-    return from <= to;
-  };
-  return cut(a.x, b.x - a.x, box.low.x, box.high.x) && cut(a.y, b.y - a.y, box.low.y, box.high.y);
-}
-
 /// Which of the tiles, row by row, a line or the inside of a contour lies in.
 std::vector<bool> shown_by(const TilePlan& plan, const Drawing& drawing) {
   std::vector<bool> shown(static_cast<std::size_t>(plan.rows) * static_cast<std::size_t>(plan.columns));
@@ -129,7 +115,7 @@ std::vector<bool> shown_by(const TilePlan& plan, const Drawing& drawing) {
     const std::vector<Vec2> points = flattened(drawn.path, kSagitta);
     each_tile([&](const PlaneBox& box) {
       for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        if (touches(box, points[i], points[i + 1])) return true;
+        if (core::touches_rectangle(points[i], points[i + 1], box.low, box.high)) return true;
       }
       return drawn.path.closed && contains(drawn.path, 0.5 * (box.low + box.high));
     });

@@ -1,5 +1,6 @@
 #include "parts/supports/side_view.hpp"
 
+#include "core/plane_geometry.hpp"
 #include "parts/bodies/body_edges.hpp"
 
 #include <algorithm>
@@ -36,21 +37,6 @@ double gap_between(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   return widest;
 }
 
-/// Whether some of a segment lies in a rectangle.
-bool meets(Vec2 from, Vec2 to, Vec2 low, Vec2 high) {
-  double first = 0.0;
-  double last = 1.0;
-  const auto cut = [&](double start, double way, double least, double most) {
-    if (way == 0.0) return start >= least && start <= most;
-    const double a = (least - start) / way;
-    const double b = (most - start) / way;
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-    return first <= last;
-  };
-  return cut(from.x, to.x - from.x, low.x, high.x) && cut(from.y, to.y - from.y, low.y, high.y);
-}
-
 }  // namespace
 
 SideView::SideView(const Shell& shell) : placement_(shell.placement) {
@@ -74,7 +60,7 @@ bool SideView::is_clear(const Trestle& trestle, double tube) const {
   const Vec2 low{trestle.x - half, trestle.ground};
   const Vec2 high{trestle.x + half, trestle.beam + kAround};
   return std::none_of(lines_.begin(), lines_.end(),
-                      [&](const auto& line) { return meets(line[0], line[1], low, high); });
+                      [&](const auto& line) { return core::touches_rectangle(line[0], line[1], low, high); });
 }
 
 bool SideView::is_clear(const ArcPath& seat, double aside, double beam) const {
