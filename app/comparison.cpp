@@ -5,6 +5,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/report/ride_figure.hpp"
 
+#include "app/searched_track.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -148,7 +150,7 @@ bool ended_early(const Entry& entry) {
 /// @throws InputError as with_friction(), at what the track meets
 Track at_friction(const Design& design, const Friction& friction,
                   const std::function<Track(const Design&)>& make) {
-  Track track = make(with_friction(design, friction, 0.0));
+  Track track = make(with_friction(design, friction, shortest_length_of(design)));
   static_cast<void>(with_friction(design, friction, track.centerline->length()));
   return track;
 }

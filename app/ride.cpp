@@ -1,5 +1,4 @@
 #include "glissade/core/error.hpp"
-#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
@@ -82,13 +81,6 @@ std::vector<Friction> frictions_of(const RideArguments& options) {
   throw InputError({"", "no friction is given to ride at",
                     "The design's own friction finds the track; these ride it.",
                     "--friction-angle 14deg,16deg,18deg"});
-}
-
-/// What no track of a design is shorter than [m].
-double shortest_length_of(const Design& design) {
-  const bool is_given = design.track.free_finish == FinishKind::point && !is_drawn(design.centerline.kind);
-  const Endpoints ends = endpoints_of(design);
-  return is_given ? math::hypot(ends.run, ends.drop) : 0.0;
 }
 
 /// Tells of every friction that a track of the design cannot be ridden at.

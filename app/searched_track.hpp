@@ -6,6 +6,9 @@
 
 namespace glissade::app {
 
+/// What no track of a design is shorter than [m]: the straight line, where both ends are given.
+[[nodiscard]] double shortest_length_of(const Design& design);
+
 /// The track of a design, with progress, and Ctrl-C met: a search ends with the best track so far.
 /// @param time_budget  of a search [s]
 /// @throws as solve()
