@@ -187,6 +187,85 @@ TEST_CASE("a limit that is relaxed never asks for a higher start") {
   }
 }
 
+TEST_CASE(
+    "a lower speed asked for at an end that lies far off is never out of reach, nor is the track longer") {
+  testing::Random random = testing::seeded_random(20250409);
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < (testing::thorough() ? 12 : 2); ++i) {
+    for (const FinishKind kind : {FinishKind::anywhere, FinishKind::vertical_line, FinishKind::level}) {
+      Problem problem;
+      problem.gravity = kGravity;
+      problem.body.friction = Friction::from_coefficient(random.between(0.02, 0.1));
+      problem.body.entry_speed = random.between(0.0, 1.0) < 0.5 ? 0.0 : 1.0;
+      problem.objective.kind =
+          random.between(0.0, 1.0) < 0.5 ? ObjectiveKind::least_length : ObjectiveKind::travel_time;
+      problem.finish.kind = kind;
+      // Far off in the coordinate that is given or bounded, next to the start in the other one.
+      const double run = kind == FinishKind::vertical_line ? 0.3 : random.between(5.0, 10.0);
+      const double drop = kind == FinishKind::level ? 1.5 : random.between(8.0, 12.0);
+      problem.endpoints = {run, drop};
+      if (kind == FinishKind::anywhere) problem.finish.free_drop = {drop, drop + 2.0};
+      problem.finish.free_range =
+          kind == FinishKind::vertical_line ? Range{drop, drop + 2.0} : Range{run, run + 2.0};
+      double before = HUGE_VAL;
+      for (const double speed : {5.0, 3.5, 2.0, 1.1}) {
+        // Down to a level the longer runs are slow.
+        if (kind == FinishKind::level && speed > 3.0) continue;
+        problem.limits.exit_speed.lowest = speed;
+        const Optimum optimum = optimize(problem);
+        CAPTURE(i, static_cast<int>(kind), run, drop, speed, optimum.report.brief());
+        REQUIRE(optimum.centerline);
+        CHECK(optimum.report.status == OptimizeStatus::optimal);
+        const bool shortest = problem.objective.kind == ObjectiveKind::least_length;
+        const double size = shortest ? optimum.centerline->length() : optimum.report.travel_time;
+        CHECK(size <= before * (1.0 + 1e-6));
+        if (shortest && kind == FinishKind::anywhere) CHECK(size <= std::hypot(run, drop) * (1.0 + 1e-6));
+        before = size;
+      }
+    }
+  }
+}
+
+TEST_CASE("of a run of a foot a fall of forty is no more than others") {
+  Problem problem = task(0.1, 0.0, 20.0, ObjectiveKind::travel_time);
+  problem.finish.kind = FinishKind::vertical_line;
+  problem.endpoints = {0.5, 0.0};
+  const Optimum fastest = solved(problem);
+  // No track has less than the drop of free fall, and none is faster than that.
+  const double fall = 20.0 * 20.0 / (2.0 * kGravity);
+  CHECK(drop_of(fastest) > fall);
+  CHECK(drop_of(fastest) < 1.01 * fall);
+  CHECK(fastest.report.travel_time > std::sqrt(2.0 * fall / kGravity));
+  CHECK(fastest.report.travel_time < 1.01 * std::sqrt(2.0 * fall / kGravity));
+}
+
+TEST_CASE("a least load that limits on shape hold up is the same for whatever lower speed is asked for") {
+  Problem problem = task(0.03, 0.0013, 27.05, ObjectiveKind::least_load);
+  problem.finish.kind = FinishKind::point;
+  problem.endpoints = {90.0, 47.104};
+  Limits& limits = problem.limits;
+  limits.slope_angle.highest = 35.0 * kDegree;
+  limits.exit_slope_angle = Range::fixed(11.0 * kDegree);
+  limits.concave = true;
+  limits.smallest_valley_radius = 104.1;
+  limits.lead_in = 24.0;
+  limits.lead_out = 6.767;
+  // By descents of its own it is 15.0331; it was told as 15.0354 m/s^2 where the speed was all but reached.
+  const auto least_for = [&](double speed) {
+    problem.limits.exit_speed.lowest = speed;
+    const Optimum least = solved(problem);
+    CHECK(least.report.message == "every limit holds, and no track keeps a tighter bound");
+    // Central differences of re-solves 0.2 deg, 0.2 m to either side.
+    CHECK(std::fabs(price_of(least, LimitId::slope_angle) * kDegree / 0.608 - 1.0) < 0.05);
+    CHECK(std::fabs(price_of(least, LimitId::lead_out) / 0.2717 - 1.0) < 0.02);
+    return Motion(least.centerline, problem.body, kGravity).highest_load().normal_load;
+  };
+  if (!testing::thorough()) return;  // each takes seconds
+  CHECK(std::fabs(least_for(26.8) / 15.0331 - 1.0) < 1e-5);
+  CHECK(std::fabs(least_for(26.0) / 15.0331 - 1.0) < 1e-5);
+  CHECK(std::fabs(least_for(27.05) / 15.0331 - 1.0) < 1e-5);
+}
+
 namespace {
 
 /// Holds a least bound against tracks of another objective: one keeps a little more, and none a little less.

@@ -1,5 +1,6 @@
 // What is told as kept is kept at every friction of a range, whichever way a track was found: rides of the test's own say so.
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/optimize/optimize.hpp"
 
 #include "optimize/ore.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace friction_range_test {
@@ -168,6 +170,93 @@ TEST_CASE("a least bound is found for the friction at which the body arrives slo
     check_rides(problem, optimum.centerline);
     for (const LimitCheck& check : optimum.report.checks) CHECK(check.kept());
   }
+}
+
+namespace {
+
+/// An arc that bends down all along: a body carries less than its weight on it, and the slowest one of a range the most.
+CenterlinePtr crest(testing::Random& random) {
+  const double entry = random.between(-0.1, 0.1);
+  const double exit = entry + random.between(0.3, 0.5);
+  const double radius = random.between(8.0, 20.0);
+  const double length = radius * (exit - entry);
+  return std::make_shared<const ClothoidSpline>(
+      Angle::from_radians(entry), std::vector<ClothoidSegment>{{length, -1.0 / radius, -1.0 / radius}});
+}
+
+}  // namespace
+
+TEST_CASE("a highest load below the weight is held on the slowest body: over a crest that carries the most") {
+  testing::Random random = testing::seeded_random(20250408);
+  INFO("GLISSADE_SEED=" << random.seed());
+  int drawn = 0;
+  for (int tries = 0; drawn < (testing::thorough() ? 20 : 4) && tries < 400; ++tries) {
+    const CenterlinePtr arc = crest(random);
+    Problem problem;
+    problem.gravity = kGravity;
+    problem.endpoints = arc->endpoints();
+    const double mu = random.between(0.05, 0.1);
+    problem.body.friction = Friction::from_coefficient(mu);
+    problem.low_friction = Friction::from_coefficient(0.5 * mu);
+    problem.high_friction = Friction::from_coefficient(1.5 * mu);
+    problem.body.entry_speed = random.between(3.0, 7.0);
+    double fastest = 0.0;
+    double slowest = 0.0;
+    double nominal = 0.0;
+    for (const Friction& friction : frictions_of(problem)) {
+      Body body = problem.body;
+      body.friction = friction;
+      const Motion ride(arc, body, problem.gravity);
+      if (!ride.arrived()) break;
+      const double load = ride.highest_load().normal_load;
+      if (friction == problem.body.friction) nominal = ride.travel_time();
+      if (friction == *problem.low_friction) fastest = load;
+      if (friction == *problem.high_friction) slowest = load;
+    }
+    if (!(fastest > 0.0 && slowest > fastest + 0.02 && slowest < 0.9 * kGravity)) continue;
+    ++drawn;
+    // The arc keeps it, and leaves room for others.
+    problem.limits.highest_normal_load = slowest + 0.05;
+    problem.limits.smallest_crest_radius = 5.0;
+    problem.limits.smallest_valley_radius = 5.0;
+    const Optimum optimum = optimize(problem);
+    CAPTURE(tries, fastest, slowest, problem.body.entry_speed, optimum.report.brief());
+    REQUIRE(optimum.centerline);
+    CHECK(optimum.report.status == OptimizeStatus::optimal);
+    CHECK(optimum.report.travel_time <= nominal * (1.0 + 1e-6));
+    check_rides(problem, optimum.centerline);
+  }
+  CHECK(drawn >= 4);
+}
+
+TEST_CASE("a least load below the weight is found for the slowest body of a range") {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.endpoints = {4.66, 1.681};
+  problem.body.friction = Friction::from_coefficient(0.052);
+  problem.low_friction = Friction::from_coefficient(0.03505);
+  problem.high_friction = Friction::from_coefficient(0.05933);
+  problem.body.entry_speed = 2.384;
+  problem.body.drag_per_metre = 0.006723;
+  problem.limits.smallest_valley_radius = 1.741;
+  problem.limits.smallest_crest_radius = 1.741;
+  problem.limits.slope_angle = {Angle::from_degrees(-4.653).radians(), Angle::from_degrees(28.73).radians()};
+  problem.limits.lowest_normal_load = 0.2771 * kGravity;
+  // A track of piecewise constant curvature that an independent search found carries 8.130 m/s^2.
+  problem.limits.highest_normal_load = 8.131;
+  const Optimum within = optimize(problem);
+  INFO(within.report.brief());
+  REQUIRE(within.centerline);
+  check_rides(problem, within.centerline);
+  if (!testing::thorough()) return;
+  problem.limits.highest_normal_load = 1.591 * kGravity;
+  problem.limits.exit_speed.lowest = 2.877;
+  problem.objective.kind = ObjectiveKind::least_load;
+  const Optimum least = optimize(problem);
+  INFO(least.report.brief());
+  REQUIRE(least.report.status == OptimizeStatus::optimal);
+  problem.limits.highest_normal_load = 8.1272;
+  check_rides(problem, least.centerline);
 }
 
 }  // namespace friction_range_test

@@ -108,6 +108,7 @@ class LeastBound {
 
   void take(Optimum optimum) {
     best_ = std::move(optimum);
+    beside_best_.reset();
     best_foothold_ = std::exchange(foothold_, std::nullopt);
     best_by_speed_ = best_.report.objective.kind == ObjectiveKind::exit_speed;
   }
@@ -229,35 +230,58 @@ class LeastBound {
     return std::nullopt;
   }
 
+  /// A track that keeps a bound, the fastest beside the one it was found from.
+  struct Led {
+    BriefEnd end;
+    double excess = 0.0;  ///< of its exit speed
+  };
   /// Near what no track goes below those that keep a bound are few and all alike: the best one known leads to one, where starts of
   /// their own take a hundred times as long, or come to no end.
-  /// @return whether it did
-  [[nodiscard]] bool leads_to(double bound) {
-    constexpr std::size_t kMostKnots = 90;  // budget: meshes grow from one to the next
+  [[nodiscard]] std::optional<Led> led_to(double bound) {
+    constexpr std::size_t kMostKnots = 130;  // budget: meshes grow from one to the next
     const bool is_near = bracket_.why == Verdict::kept_by_none && bracket_.tight > 0.0 &&
                          bound > (1.0 - kLeads) * bracket_.loose;
-    if (!is_near || !best_foothold_ || !best_by_speed_) return false;
-    if (best_foothold_->mesh.knots.size() > kMostKnots) return false;
+    if (!is_near || !best_foothold_ || !best_by_speed_) return std::nullopt;
+    if (best_foothold_->mesh.knots.size() > kMostKnots) return std::nullopt;
+    return led_from(*best_foothold_, bound);
+  }
+  [[nodiscard]] std::optional<Led> led_from(const Foothold& foothold, double bound) {
     OptimizeOptions options = options_;
     options.time_budget = outlay_.left();
     tried_.limits.*member_ = bound;
-    BriefEnd end = optimize_from(tried_, *best_foothold_, options, stop_, progress_);
+    BriefEnd end = optimize_from(tried_, foothold, options, stop_, progress_);
     ++searches_;
     outlay_.add(end.optimum.report);
-    if (!end.optimum.centerline || end.optimum.report.status != OptimizeStatus::optimal) return false;
+    if (!end.optimum.centerline || end.optimum.report.status != OptimizeStatus::optimal) return std::nullopt;
     const double excess = slowest_of(end.optimum) - wanted_;
-    // Beside the speed wanted another track may be the faster one.
-    if (!(excess > kSpareSpeed * wanted_)) return false;
-    excess_ = excess;
-    price_ = price_in(end.optimum.report);
-    foothold_ = std::move(end.foothold);
-    take(std::move(end.optimum));
-    return true;
+    return Led{std::move(end), excess};
+  }
+  void take(Led led) {
+    excess_ = led.excess;
+    price_ = price_in(led.end.optimum.report);
+    foothold_ = std::move(led.end.foothold);
+    take(std::move(led.end.optimum));
   }
 
-  /// Looks at a bound, by a second way where the first comes to no end.
+  /// Looks at a bound: from the best track, and where that is not plainly fast enough, from everywhere.
   Verdict look(double bound) {
-    if (leads_to(bound)) return Verdict::does;
+    std::optional<Led> led = led_to(bound);
+    // Beside the speed wanted another track may be the faster one.
+    if (led && led->excess > kSpareSpeed * wanted_) {
+      take(*std::move(led));
+      return Verdict::does;
+    }
+    const Verdict verdict = look_from_everywhere(bound);
+    if (verdict == Verdict::does || !led) return verdict;
+    // What is known to keep the bound stands against a search that found nothing.
+    if (led->excess < 0.0) return verdict == Verdict::kept_by_none ? Verdict::too_slow : verdict;
+    settled_ = std::fabs(led->excess) <= kSpeedAccuracy * wanted_;
+    take(*std::move(led));
+    return Verdict::does;
+  }
+
+  /// By a second way where the first comes to no end.
+  Verdict look_from_everywhere(double bound) {
     Optimum fastest = within(bound);
     excess_ = fastest.centerline ? slowest_of(fastest) - wanted_ : -wanted_;
     price_ = fastest.centerline ? price_in(fastest.report) : 0.0;
@@ -297,6 +321,7 @@ class LeastBound {
                      verdict);
       settled_ = settled_ || is_as_good_as_none(bracket_.loose);
       if (settled_) return;
+      if (verdict == Verdict::does) leap();
       bound = next_after(bound, verdict);
     }
   }
@@ -311,11 +336,15 @@ class LeastBound {
   }
 
   /// The least that a descent from the best track comes to. @param tight  a bound that no track keeps
-  [[nodiscard]] std::optional<LeastKept> least_beside(double tight) {
+  std::optional<LeastKept> least_beside(double tight) {
     if (bracket_.why != Verdict::kept_by_none || !(tight > 0.0) || !best_foothold_) return std::nullopt;
+    if (beside_best_ && beside_best_->tight == tight) return beside_best_->least;
     Problem problem = tried_;
     problem.limits.*member_ = tight;
-    return least_kept_near(problem, name_, *best_foothold_, control_);
+    std::optional<LeastKept> least = least_kept_near(problem, name_, *best_foothold_, control_);
+    beside_best_ = BesideBest{tight, least};
+    if (least && (!least_beside_ || least->bound < least_beside_->bound)) least_beside_ = least;
+    return least;
   }
 
   /// Just below the least bound that does a search may come to no end. Whether one a little farther below tells that it is the
@@ -367,12 +396,32 @@ class LeastBound {
     const std::optional<LeastKept> least = least_beside(bracket_.tight);
     const double below = bracket_.loose * (1.0 - kJustBelow * bracket_.accuracy());
     if (!least) return 0.0;
+    // Far above it searches come to an end sooner than just above it, and lead nearer.
+    constexpr double kOfWay = 0.25;  // taste
+    if (least->bound < (1.0 - kLeads) * bracket_.loose)
+      return least->bound + kOfWay * (bracket_.loose - least->bound);
     if (verdict != Verdict::does || least->bound < below) {
       step_ = kFirstStep;
       return least->bound * (1.0 + step_);
     }
     step_ = 0.0;
     return below;
+  }
+
+  /// From the best track to what no track goes below, as long as a descent leads there to far tighter bounds that do.
+  void leap() {
+    constexpr int kMostLeaps = 8;    // budget
+    constexpr double kAbove = 1e-6;  // taste: of the bound; its stations keep it, not what lies between them
+    for (int i = 0; i < kMostLeaps && bracket_.why == Verdict::kept_by_none && !outlay_.ends(); ++i) {
+      const std::optional<LeastKept> least = least_beside(bracket_.tight);
+      if (!least || !(least->bound < (1.0 - kLeads) * bracket_.loose)) return;
+      const double bound = least->bound * (1.0 + kAbove);
+      std::optional<Led> led = led_from(least->track, bound);
+      if (!led || led->excess < 0.0) return;
+      take(*std::move(led));
+      bracket_.learn(std::min(bound, reached_by(best_.centerline)), Verdict::does);
+      step_ = 0.0;
+    }
   }
 
   /// What no track goes below, shown without a search. 0 where nothing is known.
@@ -492,9 +541,10 @@ class LeastBound {
   [[nodiscard]] std::vector<ActiveLimit> holding_up() {
     constexpr double kSame = 1e-3;  // taste: by so much a descent on one mesh may miss the bound
     if (!settled_ || outlay_.ends()) return {};
-    std::optional<LeastKept> least = least_beside(bracket_.tight * (1.0 - kSame));
-    if (!least || std::fabs(least->bound / bracket_.loose - 1.0) > kSame) return {};
-    return std::move(least->holding);
+    // The mesh on which it gives way least is the one that fits it best. On the last, largest one a descent may come to no end.
+    (void)least_beside(bracket_.tight * (1.0 - kSame));
+    if (!least_beside_ || std::fabs(least_beside_->bound / bracket_.loose - 1.0) > kSame) return {};
+    return least_beside_->holding;
   }
 
   /// What is left open: "of bounds between 14.2 m/s^2, which is too tight, and 14.9 m/s^2 searches did not tell"
@@ -529,6 +579,13 @@ class LeastBound {
   double price_ = 0.0;                     ///< of that bound, in speed
   /// What a descent from the best track wins still, as a share of its bound; none where searches told that a tighter one is too tight.
   std::optional<double> left_beside_;
+  /// What the last descent from the best track told.
+  struct BesideBest {
+    double tight = 0.0;
+    std::optional<LeastKept> least;
+  };
+  std::optional<BesideBest> beside_best_;
+  std::optional<LeastKept> least_beside_;  ///< the least that descents told
   double step_ = 0.0;  ///< by how much the last bound lay above what a descent came to, of itself
   int searches_ = 0;
 };

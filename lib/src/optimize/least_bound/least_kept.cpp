@@ -17,8 +17,9 @@ constexpr double kOthersKept = 1e-6;  // accuracy: ten times that of a limit
 /// Descents of one limit's violation, by one way past the keep-outs.
 class LeastKeptSearch {
  public:
-  LeastKeptSearch(const Problem& problem, const LimitName& name, const Passages& way, SearchControl& control)
-      : problem_(problem), name_(name), way_(way), control_(control) {}
+  LeastKeptSearch(const Problem& problem, const LimitName& name, std::size_t passages, const Passages& way,
+                  SearchControl& control)
+      : problem_(problem), name_(name), passages_(passages), way_(way), control_(control) {}
 
   [[nodiscard]] std::optional<LeastKept> near(const Mesh& mesh, const Vector& z) {
     return closed(descended(problem_, mesh, z));
@@ -62,7 +63,8 @@ class LeastKeptSearch {
     double share = kOfGap;
     for (int i = 0; least && tight && i < kMostDescents && !control_.stop(); ++i) {
       const double next = *least - share * (*least - *tight);
-      if (*least - next <= kCloseEnough * *least) return LeastKept{*least, holding(*held_up)};
+      if (*least - next <= kCloseEnough * *least)
+        return LeastKept{*least, holding(*held_up), foothold_of(end)};
       const std::optional<Problem> closer = with_bound(problem_, name_, next);
       if (!closer) return std::nullopt;
       End trial = descended(*closer, end.relaxed.found.track->mesh(), end.relaxed.found.z);
@@ -99,8 +101,13 @@ class LeastKeptSearch {
     return std::nullopt;
   }
 
+  [[nodiscard]] Foothold foothold_of(const End& end) const {
+    return {passages_, Mesh(end.relaxed.found.track->mesh()), end.relaxed.found.z};
+  }
+
   const Problem& problem_;
   const LimitName& name_;
+  std::size_t passages_;
   const Passages& way_;
   SearchControl& control_;
 };
@@ -110,7 +117,8 @@ class LeastKeptSearch {
 std::optional<LeastKept> least_kept_near(const Problem& problem, const LimitName& name, const Foothold& track,
                                          SearchControl& control) {
   const std::vector<Passages> ways = all_passages(problem.limits);
-  return LeastKeptSearch(problem, name, ways[track.passages], control).near(track.mesh, track.z);
+  return LeastKeptSearch(problem, name, track.passages, ways[track.passages], control)
+      .near(track.mesh, track.z);
 }
 
 }  // namespace glissade::optimizer

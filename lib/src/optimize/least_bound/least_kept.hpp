@@ -15,6 +15,7 @@ namespace glissade::optimizer {
 struct LeastKept {
   double bound = 0.0;  ///< in the user's unit
   std::vector<ActiveLimit> holding;
+  Foothold track;  ///< keeps it at the stations of its mesh
 };
 
 /// The least bound of a limit that no small change of a track keeps a tighter one than, the other limits being kept: by

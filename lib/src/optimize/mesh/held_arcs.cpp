@@ -75,8 +75,9 @@ double curvature_at_bound(const OnMesh& on, std::size_t limit, std::size_t stati
   };
   const double first = at_ride(spec.ride.value_or(0));
   // The rides at which the limit is held are those of Rows::candidates.
-  if (spec.side > 0 || problem.rides.size() == 1) return first;
-  return std::max(first, at_ride(problem.rides.size() - 1));
+  if (spec.ride || problem.rides.size() == 1) return first;
+  const double last = at_ride(problem.rides.size() - 1);
+  return spec.side > 0 ? std::min(first, last) : std::max(first, last);
 }
 
 /// How far a load or a speed stays from its bound, at most, at the stations of each piece, on the closest ride.

@@ -265,13 +265,20 @@ class Load final : public Measure {
     add_stations(at, at.limit.ride.value_or(0), 0, rows);
     // More friction is a slower body at every point, so the ends of the friction range hold all between.
     const std::size_t last_ride = at.problem.rides.size() - 1;
-    if (with_weight_ && at.limit.side < 0 && last_ride > 0) add_stations(at, last_ride, 0, rows);
+    if (with_weight_ && last_ride > 0 && !at.limit.ride && is_held_up_by_slowest(at.limit))
+      add_stations(at, last_ride, 0, rows);
   }
 
   [[nodiscard]] bool holds_along() const override { return true; }
   [[nodiscard]] bool is_load() const override { return true; }
 
  private:
+  /// On a crest the slowest body carries the most, less than its weight: only a bound below that asks for it.
+  static bool is_held_up_by_slowest(const LimitSpec& limit) {
+    constexpr double kWeight = 1.0;  // theory: in units of gravity
+    return limit.side < 0 || limit.bound < kWeight;
+  }
+
   static Ride::CurvatureLoad load(const RowAt& at) {
     return at.problem.rides[at.row.ride].curvature_load(at.state.shape.curvature[at.row.place],
                                                         at.state.flows[at.row.ride].v[at.row.place]);

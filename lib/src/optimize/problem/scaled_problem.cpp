@@ -416,23 +416,40 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
 
 namespace {
 
-/// The length that the problem is scaled by [m].
-double chord_of(const Problem& problem) {
-  const double run = std::fabs(problem.endpoints.run);
-  switch (problem.finish.kind) {
-    case FinishKind::point:
-      return math::hypot(run, problem.endpoints.drop);
-    case FinishKind::vertical_line:
-      return run;
-    case FinishKind::level:
-      return std::fabs(problem.endpoints.drop);
-    case FinishKind::anywhere:
-      break;
-  }
-  // The drop of free fall to the speed that is to be reached: no track has less.
+/// How near to the start a free coordinate of the finish may come [m].
+double nearest(const Range& range) {
+  double value = 0.0;
+  if (range.lowest) value = std::max(value, *range.lowest);
+  if (range.highest) value = std::min(value, *range.highest);
+  return value;
+}
+
+/// The drop of free fall to the speed that is to be reached, which no track has less of where no wind blows it on [m].
+double fall_to_lowest_speed(const Problem& problem) {
   const double speed = problem.limits.exit_speed.lowest.value_or(0.0);
   const double entry = problem.body.entry_speed;
-  return (speed * speed - entry * entry) / (2.0 * problem.gravity);
+  return std::max(0.0, (speed * speed - entry * entry) / (2.0 * problem.gravity));
+}
+
+/// The length that the problem is scaled by [m]: no track that meets the finish is shorter.
+double chord_of(const Problem& problem) {
+  const double run = std::fabs(problem.endpoints.run);
+  const double drop = problem.endpoints.drop;
+  const Finish& finish = problem.finish;
+  const double fall = fall_to_lowest_speed(problem);
+  switch (finish.kind) {
+    case FinishKind::point:
+      break;
+    case FinishKind::vertical_line: {
+      const bool is_blown = problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0;
+      return math::hypot(run, std::max(is_blown ? 0.0 : fall, nearest(finish.free_range)));
+    }
+    case FinishKind::level:
+      return math::hypot(nearest(finish.free_range), drop);
+    case FinishKind::anywhere:
+      return math::hypot(nearest(finish.free_range), std::max(fall, nearest(finish.free_drop)));
+  }
+  return math::hypot(run, drop);
 }
 
 void set_objective(const Objective& objective, double entry_speed, ScaledProblem& out) {
@@ -540,6 +557,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   out.speed = std::sqrt(out.chord * problem.gravity);
   out.run = run / out.chord;
   out.drop = problem.endpoints.drop / out.chord;
+  out.fall = fall_to_lowest_speed(problem) / out.chord;
   out.lead_in = limits.lead_in / out.chord;
   out.lead_out = limits.lead_out / out.chord;
   out.lowest_speed_from = limits.lowest_speed_from / out.chord;

@@ -71,6 +71,7 @@ struct ScaledProblem {
   double gravity = 1.0;
   double run = 0.0;
   double drop = 0.0;
+  double fall = 0.0;  ///< the drop of free fall to the lowest exit speed
   FinishKind finish = FinishKind::point;
   PlacesFrom places_from = PlacesFrom::start;  ///< of obstacles and waypoints
   std::vector<double> changes;  ///< arc lengths from which on the track rubs differently, ascending

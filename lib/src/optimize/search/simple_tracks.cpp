@@ -95,6 +95,7 @@ class SimpleTracks {
   [[nodiscard]] std::optional<KeptTrack> best() {
     if (problem_.finish.kind == FinishKind::anywhere) {
       from_free_start();
+      for (const Vec2& finish : corners()) to(finish);
     } else {
       for (const Vec2& finish : finishes()) to(finish);
       along_fan();
@@ -146,6 +147,19 @@ class SimpleTracks {
       finishes.push_back(level ? Vec2{free, given.y} : Vec2{given.x, free});
     }
     return finishes;
+  }
+
+  /// Where both coordinates of the finish are free: the corners of where it may be, those left out at which nothing bounds it.
+  [[nodiscard]] std::vector<Vec2> corners() const {
+    const Range& runs = problem_.finish.free_range;
+    const Range& drops = problem_.finish.free_drop;
+    std::vector<Vec2> corners;
+    for (const std::optional<double>& run : {runs.lowest, runs.highest}) {
+      for (const std::optional<double>& drop : {drops.lowest, drops.highest}) {
+        if (run && drop && *run > 0.0) corners.push_back({*run, *drop});
+      }
+    }
+    return corners;
   }
 
   /// Straight lines to wherever a free finish may be.

@@ -43,16 +43,20 @@ Vec2 expected_finish(const ScaledProblem& problem) {
       finish.x = within(LimitId::finish_run, 0.5 * std::fabs(finish.y) / std::max(mu, 1.0));
       break;
     case FinishKind::anywhere: {
-      // Free fall takes a drop of 1; a quarter more goes with friction, and with a slope as steep as is allowed.
-      constexpr double kLost = 0.25;     // taste
+      // A quarter more than the drop of free fall goes with friction, and with a slope as steep as is allowed.
+      constexpr double kLost = 1.25;   // taste
+      constexpr double kRubbed = 1.2;  // taste: of what friction takes on the way to a run that is asked for
       constexpr double kSteepest = 1.0;  // taste
       double slope = kSteepest;
       for (const LimitSpec& limit : problem.limits) {
         if (limit.measure == Measure::slope_angle && limit.side > 0)
           slope = std::min(slope, math::tan(std::min(limit.bound, 0.25 * std::numbers::pi)));
       }
-      finish.y = within(LimitId::finish_drop, 1.0 + kLost);
-      finish.x = within(LimitId::finish_run, finish.y / std::max(0.8 * slope, 1.5 * mu));
+      finish.y = within(LimitId::finish_drop, kLost * problem.fall);
+      const double run = finish.y / std::max(0.8 * slope, 1.5 * mu);
+      finish.x = within(LimitId::finish_run, run);
+      if (finish.x > run)
+        finish.y = within(LimitId::finish_drop, std::max(finish.y, problem.fall + kRubbed * mu * finish.x));
       break;
     }
   }
