@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ using Catch::Matchers::Contains;
 using nlohmann::json;
 
 namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A straight spoon: 100 t/h of ore fall on it and leave to a belt.
 std::string spoon(const std::string& more = "", const std::string& friction = "friction_angle: 27 deg") {
@@ -349,6 +352,46 @@ TEST_CASE("the shipped chutes with streams arrive, and fail no rule that a progr
       INFO(one.rule.id << " " << one.value.value_or(0.0) << " " << one.place);
       CHECK(one.verdict != RuleVerdict::fail);
     }
+  }
+}
+
+TEST_CASE("slopes are judged by the friction of their place, wherever along the track it is highest") {
+  const auto judged = [](double first, double second, double third, double from) {
+    const std::string list = "{from: 0 m, angle: " + std::to_string(first) +
+                             " deg}, {from: 2 m, angle: " + std::to_string(second) +
+                             " deg}, {from: " + std::to_string(from) + " m, angle: " + std::to_string(third) +
+                             " deg}";
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 30 m}}\nbody: {friction: [" + list +
+            "], entry_speed: 4 m/s}\nstream: {mass_flow: 60 kg/s, bulk_density: 900 kg/m^3}\n"
+            "centerline: {kind: segments, entry_slope_angle: 38 deg, segments: [{length: 4 m}]}\n"
+            "limits: {lowest_slope_margin: 0 deg}\n"
+            "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 6 mm}\n",
+        "d.yaml");
+  };
+  for (const auto& [frictions, from] :
+       {std::pair{std::vector{15.0, 36.0, 20.0}, 3.0}, std::pair{std::vector{36.0, 15.0, 20.0}, 3.0},
+        std::pair{std::vector{20.0, 15.0, 36.0}, 3.0}, std::pair{std::vector{15.0, 20.0, 36.0}, 4.0},
+        std::pair{std::vector{15.0, 20.0, 36.0}, 5.0}}) {
+    CAPTURE(frictions, from);
+    const Design design = judged(frictions[0], frictions[1], frictions[2], from);
+    const Track track = solve(design);
+    const std::vector<Judgement> all = judge_rules(design, track);
+    const double highest = from < 4.0 ? 36.0 : 20.0;
+    const Judgement& slope = verdict(all, "chute.3.slope");
+    CHECK(slope.value.value() == Approx((38.0 - highest) * kDegree).margin(1e-12));
+    CHECK((slope.verdict == RuleVerdict::pass) == (highest == 20.0));
+    CHECK((verdict(all, "chute.3.slope-10").verdict == RuleVerdict::pass) == (highest == 20.0));
+    // The limit of that name has it from the referee.
+    for (const LimitCheck& check : track.limit_checks) {
+      if (check.limit.id == LimitId::lowest_slope_margin && from != 4.0)
+        CHECK(check.reached == Approx(slope.value.value()).margin(1e-9));
+    }
+    bool valley = false;
+    for (const Judgement& one : all) valley = valley || one.rule.id == "chute.3.valley";
+    CHECK(valley == (highest == 36.0));
+    // That friction changes along the track does not make it known as a range.
+    CHECK(verdict(all, "chute.1.material").value.value() == 0.0);
   }
 }
 
