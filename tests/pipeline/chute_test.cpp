@@ -395,4 +395,31 @@ TEST_CASE("slopes are judged by the friction of their place, wherever along the 
   }
 }
 
+TEST_CASE("a plugged chute carries what its section holds, leaning walls too") {
+  const auto told = [](const std::string& section) {
+    const Design design = parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 3 m, z: 1 m}}\n"
+        "body: {friction_angle: 25 deg, entry_speed: 2 m/s}\n"
+        "stream: {mass_flow: 10 t/h, bulk_density: 1000 kg/m^3}\ncenterline: {kind: straight}\n"
+        "cross_section: {" +
+            section + "}\n",
+        "d.yaml");
+    return verdict(judge_rules(design, solve(design)), "chute.12.structure").reason;
+  };
+  CHECK_THAT(told("kind: u-channel, width: 400 mm, wall_height: 400 mm, thickness: 6 mm"),
+             Contains("full of material it carries 1.57 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: 400 mm, wall_height: 400 mm, wall_angle: 0 deg, thickness: 6 mm"),
+             Contains("full of material it carries 1.57 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: 400 mm, wall_height: 400 mm, wall_angle: 60 deg, thickness: 6 mm"),
+             Contains("full of material it carries 4.29 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: 600 mm, wall_height: 300 mm, wall_angle: 30 deg, thickness: 6 mm"),
+             Contains("full of material it carries 2.28 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}], "
+                  "wall_height: 400 mm, "
+                  "wall_angle: 60 deg, thickness: 6 mm"),
+             Contains("full of material it carries 5.07 kN on each metre"));
+  CHECK_THAT(told("kind: slab, width: 400 mm, thickness: 20 mm, curb_height: 400 mm, curb_width: 20 mm"),
+             Contains("full of material it carries 1.57 kN on each metre"));
+}
+
 }  // namespace chute_test

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/design/stream_channel.hpp"
@@ -15,7 +16,7 @@ std::optional<StreamChannel> stream_channel(const CrossSectionDesign& section) {
   if (const auto* const channel = std::get_if<section::UChannel>(&section))
     return StreamChannel{channel->width, channel->wall_height};
   if (const auto* const channel = std::get_if<section::Trapezoid>(&section))
-    return StreamChannel{channel->width, channel->wall_height};
+    return StreamChannel{channel->width, channel->wall_height, math::tan(channel->wall_angle.radians())};
   const auto* const slab = std::get_if<section::Slab>(&section);
   if (slab == nullptr || !(slab->curb_height > 0.0)) return {};
   return StreamChannel{slab->width, slab->curb_height};

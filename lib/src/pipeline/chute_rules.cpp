@@ -387,7 +387,7 @@ void measure_channel(const Design& design, const Track& track, Measurements& mea
   }
   const StreamChannel channel = stream_channel(design.cross_section.value()).value();
   const double density = design.stream->high_density.value_or(design.stream->bulk_density);
-  const double full = density * design.gravity * channel.width.widest() * channel.wall_height;
+  const double full = density * design.gravity * channel.full_area();
   measurements.set_missing("plugged_load", "to be shown by its designer: full of material it carries " +
                                                rounded_text(full / 1e3, 3) + " kN on each metre");
   measurements.set_missing("corner_radius", "to be looked at: the section has sharp inner corners");
