@@ -422,4 +422,42 @@ TEST_CASE("a plugged chute carries what its section holds, leaning walls too") {
              Contains("full of material it carries 1.57 kN on each metre"));
 }
 
+TEST_CASE("a stream that moves away from its belt does not land, and is not judged as one that does") {
+  const auto with = [](const std::string& belt, const std::string& friction = "25 deg") {
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}}\nbody: {friction_angle: " + friction +
+            ", entry_speed: 2 m/s}\nstream: {mass_flow: 100 t/h, bulk_density: 900 kg/m^3}\n"
+            "discharge: {belt_speed: 4.6 m/s, " +
+            belt +
+            "}\ncenterline: {kind: segments, entry_slope_angle: 60 deg, segments: "
+            "[{length: 1.5 m}, {to_slope_angle: 30 deg, radius: 3 m}]}\n"
+            "cross_section: {kind: u-channel, width: 600 mm, wall_height: 300 mm, thickness: 6 mm}\n",
+        "d.yaml");
+  };
+  const auto warned = [](const Design& design, const Track& track) {
+    for (const Issue& issue : warnings(design, track)) {
+      if (to_text(issue).find("does not land on its belt") != std::string::npos) return to_text(issue);
+    }
+    return std::string();
+  };
+  const Design away = with("belt_angle: -45 deg, drop: 50 mm");
+  const Track track = solve(away);
+  const json told = json::parse(track_json(away, track));
+  CHECK(told["discharge"].is_null());
+  for (const json& one : told["cases"]) CHECK(one["discharge"].is_null());
+  const std::vector<Judgement> all = judge_rules(away, track);
+  CHECK(verdict(all, "chute.6.belt").verdict == RuleVerdict::cannot_be_judged);
+  CHECK_THAT(verdict(all, "chute.6.belt").reason, Contains("it moves away from its belt"));
+  CHECK_THAT(warned(away, track), Contains("at 1.08") && Contains("comes from below"));
+  // It lands with more drop; where it does at the lowest friction alone that is told, too.
+  const Design lower = with("belt_angle: -45 deg, drop: 900 mm");
+  CHECK(warned(lower, solve(lower)).empty());
+  CHECK(verdict(judge_rules(lower, solve(lower)), "chute.6.belt").value);
+  CHECK(json::parse(track_json(lower, solve(lower)))["discharge"]["speed_into_belt_m_per_s"] > 0.0);
+  const Design ranged =
+      with("belt_angle: -39.2 deg, drop: 300 mm", "{low: 5 deg, nominal: 25 deg, high: 26 deg}");
+  CHECK_THAT(warned(ranged, solve(ranged)), Contains("at low friction, 5 deg, the stream does not land"));
+  CHECK_THAT(verdict(judge_rules(ranged, solve(ranged)), "chute.6.belt").reason, Contains("low friction"));
+}
+
 }  // namespace chute_test

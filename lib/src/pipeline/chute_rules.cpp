@@ -290,6 +290,12 @@ void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases
   }
   const ChuteCase* of = nullptr;
   for (const auto& [landing, run] : landings) {
+    if (!landing.lands()) {
+      for (const char* const key : {"belt_match", "speed_into_belt"})
+        measurements.set_missing(
+            key, "a stream that lands: with " + case_text(*run) + " it moves away from its belt");
+      return;
+    }
     into.see(landing.speed_into, run->motion.distance(), *run);
     if (worst != nullptr && std::fabs(landing.match - 1.0) <= std::fabs(worst->match - 1.0)) continue;
     worst = &landing;
