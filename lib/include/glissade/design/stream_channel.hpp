@@ -12,7 +12,7 @@ namespace glissade {
 struct StreamChannel {
   WidthLaw width;            ///< of the floor along the track [m]
   double wall_height = 0.0;  ///< upright [m]
-  double lean = 0.0;         ///< by how much each wall leans outwards over its height; >= 0
+  double lean = 0.0;         ///< by how much each wall leans outwards over its height [-]; >= 0
   /// @return whether a stream spills over the wall before it is as deep as its channel is wide, everywhere
   [[nodiscard]] bool has_low_walls() const { return wall_height < width.narrowest(); }
   /// @return the least depth at which a stream chokes [m]: its wall, or its width, at which Roberts' law ends
