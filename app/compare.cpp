@@ -422,7 +422,7 @@ ExitCode compare(const CompareArguments& options) {
   }();
   write_files(options, comparison, figures.figures);
   const bool files = !(options.svg.empty() && options.html.empty() && options.csv.empty());
-  const std::string kept = files ? "The files that were asked for are written." : "";
+  const std::string kept = files ? kFilesWritten : "";
   if (options.json) {
     print(json_of(options, design, comparison.entries), kept);
   } else {

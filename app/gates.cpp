@@ -170,19 +170,23 @@ ExitCode show_gates(const CLI::App& command, const GatesArguments& options) {
   }
   const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   const std::string asked = answers(options, design, track);
+  std::string text;
   if (options.json) {
-    print(track_json(design, track));
+    text = track_json(design, track);
   } else {
     const std::string heading = design.name.empty() ? std::string("Gates") : design.name;
     const std::string below = gates_below_place(*track.gates);
-    print(emphasised(heading, Emphasis::heading) + "\n  speed v " +
-          length_text(track.gates->measuring_place) + " before the edge\n\n" +
-          (options.slopes ? slopes_table(*track.gates) : gates_table(*track.gates)).text() +
-          (below.empty() ? "" : "\n  " + below + "\n") + (asked.empty() ? "" : "\n" + asked));
+    text = emphasised(heading, Emphasis::heading) + "\n  speed v " +
+           length_text(track.gates->measuring_place) + " before the edge\n\n" +
+           (options.slopes ? slopes_table(*track.gates) : gates_table(*track.gates)).text() +
+           (below.empty() ? "" : "\n  " + below + "\n") + (asked.empty() ? "" : "\n" + asked);
   }
-  OutputFiles files;
-  files.make(options.csv, [&](const std::filesystem::path& csv) { write_gates_csv(csv, *track.gates); });
-  files.put_in_place();
+  const auto write = [&] {
+    OutputFiles files;
+    files.make(options.csv, [&](const std::filesystem::path& csv) { write_gates_csv(csv, *track.gates); });
+    files.put_in_place();
+  };
+  write_and_print(write, text, options.csv.empty() ? "" : kFilesWritten);
   require_arrivals(design, *track.gates);
   require_searched_through(design, track);
   return ExitCode::done;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "glissade/core/error.hpp"
 #include "glissade/io/file_set.hpp"
 
+#include "app/console.hpp"
 #include "app/interrupt.hpp"
 
 #include <filesystem>
@@ -25,5 +27,22 @@ class OutputFiles {
   Interrupt interrupt_;  // before the files: it outlives them
   FileSet files_;
 };
+
+/// Of files that options name.
+inline constexpr const char* kFilesWritten = "The files that were asked for are written.";
+
+/// Writes files and then prints: they are there also where nothing takes what is printed, and that is printed also where a
+/// file cannot be written.
+/// @param kept  what to say of the files where printing fails, as print() has it
+template <typename Write>
+void write_and_print(const Write& write, const std::string& text, const std::string& kept) {
+  try {
+    write();
+  } catch (const Error&) {
+    print(text);
+    throw;
+  }
+  print(text, kept);
+}
 
 }  // namespace glissade::app

@@ -62,8 +62,10 @@ ExitCode solve_track(const SolveArguments& options) {
   const Design design = options.input.design();
   try {
     const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
-    print(options.json ? track_json(design, track) : track_summary(design, track));
-    write_files(options, design, track);
+    const bool files = !(options.csv.empty() && options.frozen.empty());
+    write_and_print([&] { write_files(options, design, track); },
+                    options.json ? track_json(design, track) : track_summary(design, track),
+                    files ? kFilesWritten : "");
     print_warnings(warnings(design, track));
     require_sound(design, track);
   } catch (const LimitsConflict& conflict) {

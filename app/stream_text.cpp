@@ -138,6 +138,11 @@ std::string feed_lines(const Design& design, const Track& track) {
 std::string discharge_lines(const Design& design, const Track& track) {
   if (!design.discharge || !track.motion.arrived() || !enters(track.motion)) return "";
   const BeltLanding landing = belt_landing(design, track.motion);
+  if (!landing.lands()) {
+    return labelled("Discharge", "does not land: it moves away from the belt at " +
+                                     speed_text(-landing.speed_into) + " where it comes to its plane, " +
+                                     length_text(landing.reach) + " beyond the finish");
+  }
   return labelled("Discharge",
                   "lands with " + speed_text(landing.speed_along) + " along the belt, " +
                       rounded_text(100.0 * landing.match, 3) + " % of its " +

@@ -166,14 +166,18 @@ ExitCode survey(const SurveyArguments& options) {
   const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
   const Survey found = survey_of(*track.centerline, read_survey(options.points, track.placement), wanted);
   const SurveyRides rides = ride_survey(track.centerline, found, track.motion.body(), design.gravity);
-  print(options.json ? survey_json(design, found, rides, wanted)
-                     : survey_summary(design, found, rides, wanted));
-  OutputFiles files;
-  files.make(options.csv, [&](const std::filesystem::path& csv) { write_survey_csv(csv, found); });
-  files.make(options.svg, [&](const std::filesystem::path& svg) {
-    write_atomically(svg, figures_svg(survey_figures(track, found, rides, wanted)));
-  });
-  files.put_in_place();
+  const auto write = [&] {
+    OutputFiles files;
+    files.make(options.csv, [&](const std::filesystem::path& csv) { write_survey_csv(csv, found); });
+    files.make(options.svg, [&](const std::filesystem::path& svg) {
+      write_atomically(svg, figures_svg(survey_figures(track, found, rides, wanted)));
+    });
+    files.put_in_place();
+  };
+  write_and_print(
+      write,
+      options.json ? survey_json(design, found, rides, wanted) : survey_summary(design, found, rides, wanted),
+      options.csv.empty() && options.svg.empty() ? "" : kFilesWritten);
   if (!found.sound()) return ExitCode::faulty;
   require_searched_through(design, track);
   return ExitCode::done;

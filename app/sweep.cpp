@@ -1,3 +1,4 @@
+#include "glissade/core/error.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/made_directories.hpp"
 #include "glissade/study/study.hpp"
@@ -195,8 +196,10 @@ ExitCode write_batch(const SweepArguments& options, const study::Study& study, c
   return ExitCode::done;
 }
 
-/// What the rows say, on a page beside them and in a few lines.
-void show_summary(const SweepArguments& options, const fs::path& directory, const std::stop_token& stop) {
+/// Writes what the rows say on a page beside them.
+/// @return it in a few lines
+std::string write_summary(const SweepArguments& options, const fs::path& directory,
+                          const std::stop_token& stop) {
   const study::Results results = study::Results::open(directory);
   const study::Summary summary = [&] {
     ProgressLine progress(options.verbosity);
@@ -204,9 +207,26 @@ void show_summary(const SweepArguments& options, const fs::path& directory, cons
   }();
   const fs::path page = directory / "sweep.html";
   write_whole(page, study::summary_page(results, summary));
-  if (!options.verbosity.quiet())
-    print(summary_text(summary) + "\n" + labelled("Page", page.string()),
-          "The page is written, as " + page.string() + ".");
+  return summary_text(summary) + "\n" + labelled("Page", page.string());
+}
+
+/// Prints what a run did, once all that it leaves is written.
+void tell_run(const SweepArguments& options, const study::RunReport& report, const fs::path& directory,
+              const std::stop_token& stop) {
+  std::string text = run_text(report, directory.string());
+  std::string kept = "The rows are written, into " + directory.string();
+  const auto tell = [&] {
+    if (!options.verbosity.quiet()) print(text, kept + ".");
+  };
+  if (!report.complete) return tell();
+  try {
+    text += write_summary(options, directory, stop);
+  } catch (const Error&) {
+    tell();
+    throw;
+  }
+  kept += ", and what they say, as " + (directory / "sweep.html").string();
+  tell();
 }
 
 /// Options that are of no use together, or alone.
@@ -276,9 +296,7 @@ ExitCode sweep_design(const CLI::App& command, const SweepArguments& given) {
     run_options.progress = progress.callback();
     return into_directory_of("-o", [&] { return study::run(study, run_options); });
   }();
-  if (!options.verbosity.quiet())
-    print(run_text(report, directory.string()), "The rows are written, into " + directory.string() + ".");
-  if (report.complete) show_summary(options, directory, interrupt.token());
+  tell_run(options, report, directory, interrupt.token());
   return ExitCode::done;
 }
 

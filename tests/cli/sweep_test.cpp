@@ -189,3 +189,16 @@ TEST_CASE("sweep: --slurm writes a batch file that gives every task its shard, a
   CHECK_FALSE(std::filesystem::exists(place / "a sweep/chunks"));
   CHECK(run_program("bash", {"-n", (place / "a sweep/sweep.sbatch").string()}).exit_code == 0);
 }
+
+TEST_CASE("sweep: a standard output that takes nothing costs the page nothing, and the message tells of it") {
+  const TempDir place;
+  RunLimits limits;
+  limits.output_to = "/dev/full";
+  const Outcome outcome =
+      sweep(place, {shipped("grain_chute"), "--vary", "body.friction_angle=10deg,20deg", "-o", "s"}, limits);
+  CHECK(outcome.exit_code == 5);
+  CHECK_THAT(outcome.errors,
+             Contains("The rows are written, into s, and what they say, as s/sweep.html. Only what was"));
+  CHECK_THAT(bytes_of(place / "s/sweep.html"), Contains("</html>"));
+  CHECK(std::filesystem::exists(place / "s/chunks/000000.csv"));
+}

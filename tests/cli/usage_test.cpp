@@ -108,6 +108,24 @@ TEST_CASE("files that are written before standard output takes nothing are told 
   const Outcome compared = glissade_run({"compare", shipped("grain_chute"), "--csv", "c.csv"}, limits);
   CHECK(compared.exit_code == 5);
   CHECK_THAT(compared.errors, Contains("The files that were asked for are written. Only what"));
+  const Outcome solved =
+      glissade_run({"solve", shipped("grain_chute"), "--csv", "s.csv", "--frozen", "f.yaml"}, limits);
+  CHECK(solved.exit_code == 5);
+  CHECK_THAT(solved.errors, Contains("The files that were asked for are written. Only what"));
+  CHECK(std::filesystem::exists(place / "s.csv"));
+  CHECK(std::filesystem::exists(place / "f.yaml"));
+  CHECK_FALSE(bytes_of(place / "c.csv").empty());
+}
+
+TEST_CASE("what is printed is printed also where a file cannot be written") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  std::filesystem::create_directory(place / "taken");
+  const Outcome solved = glissade_run({"solve", shipped("grain_chute"), "--csv", "taken"}, limits);
+  CHECK(solved.exit_code == 5);
+  CHECK_THAT(solved.output, Contains("Travel time"));
+  CHECK_THAT(solved.errors, Contains("taken"));
 }
 
 TEST_CASE("a pipe or device takes no file, by whatever name it goes") {

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,8 @@ using Catch::Matchers::Contains;
 using nlohmann::json;
 
 namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A straight spoon: 100 t/h of ore fall on it and leave to a belt.
 std::string spoon(const std::string& more = "", const std::string& friction = "friction_angle: 27 deg") {
@@ -350,6 +353,111 @@ TEST_CASE("the shipped chutes with streams arrive, and fail no rule that a progr
       CHECK(one.verdict != RuleVerdict::fail);
     }
   }
+}
+
+TEST_CASE("slopes are judged by the friction of their place, wherever along the track it is highest") {
+  const auto judged = [](double first, double second, double third, double from) {
+    const std::string list = "{from: 0 m, angle: " + std::to_string(first) +
+                             " deg}, {from: 2 m, angle: " + std::to_string(second) +
+                             " deg}, {from: " + std::to_string(from) + " m, angle: " + std::to_string(third) +
+                             " deg}";
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 30 m}}\nbody: {friction: [" + list +
+            "], entry_speed: 4 m/s}\nstream: {mass_flow: 60 kg/s, bulk_density: 900 kg/m^3}\n"
+            "centerline: {kind: segments, entry_slope_angle: 38 deg, segments: [{length: 4 m}]}\n"
+            "limits: {lowest_slope_margin: 0 deg}\n"
+            "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 6 mm}\n",
+        "d.yaml");
+  };
+  for (const auto& [frictions, from] :
+       {std::pair{std::vector{15.0, 36.0, 20.0}, 3.0}, std::pair{std::vector{36.0, 15.0, 20.0}, 3.0},
+        std::pair{std::vector{20.0, 15.0, 36.0}, 3.0}, std::pair{std::vector{15.0, 20.0, 36.0}, 4.0},
+        std::pair{std::vector{15.0, 20.0, 36.0}, 5.0}}) {
+    CAPTURE(frictions, from);
+    const Design design = judged(frictions[0], frictions[1], frictions[2], from);
+    const Track track = solve(design);
+    const std::vector<Judgement> all = judge_rules(design, track);
+    const double highest = from < 4.0 ? 36.0 : 20.0;
+    const Judgement& slope = verdict(all, "chute.3.slope");
+    CHECK(slope.value.value() == Approx((38.0 - highest) * kDegree).margin(1e-12));
+    CHECK((slope.verdict == RuleVerdict::pass) == (highest == 20.0));
+    CHECK((verdict(all, "chute.3.slope-10").verdict == RuleVerdict::pass) == (highest == 20.0));
+    // The limit of that name has it from the referee.
+    for (const LimitCheck& check : track.limit_checks) {
+      if (check.limit.id == LimitId::lowest_slope_margin && from != 4.0)
+        CHECK(check.reached == Approx(slope.value.value()).margin(1e-9));
+    }
+    bool valley = false;
+    for (const Judgement& one : all) valley = valley || one.rule.id == "chute.3.valley";
+    CHECK(valley == (highest == 36.0));
+    // That friction changes along the track does not make it known as a range.
+    CHECK(verdict(all, "chute.1.material").value.value() == 0.0);
+  }
+}
+
+TEST_CASE("a plugged chute carries what its section holds, leaning walls too") {
+  const auto told = [](const std::string& section) {
+    const Design design = parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 3 m, z: 1 m}}\n"
+        "body: {friction_angle: 25 deg, entry_speed: 2 m/s}\n"
+        "stream: {mass_flow: 10 t/h, bulk_density: 1000 kg/m^3}\ncenterline: {kind: straight}\n"
+        "cross_section: {" +
+            section + "}\n",
+        "d.yaml");
+    return verdict(judge_rules(design, solve(design)), "chute.12.structure").reason;
+  };
+  CHECK_THAT(told("kind: u-channel, width: 400 mm, wall_height: 400 mm, thickness: 6 mm"),
+             Contains("full of material it carries 1.57 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: 400 mm, wall_height: 400 mm, wall_angle: 0 deg, thickness: 6 mm"),
+             Contains("full of material it carries 1.57 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: 400 mm, wall_height: 400 mm, wall_angle: 60 deg, thickness: 6 mm"),
+             Contains("full of material it carries 4.29 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: 600 mm, wall_height: 300 mm, wall_angle: 30 deg, thickness: 6 mm"),
+             Contains("full of material it carries 2.28 kN on each metre"));
+  CHECK_THAT(told("kind: trapezoid, width: [{at: 0 m, width: 600 mm}, {at: 2 m, width: 400 mm}], "
+                  "wall_height: 400 mm, "
+                  "wall_angle: 60 deg, thickness: 6 mm"),
+             Contains("full of material it carries 5.07 kN on each metre"));
+  CHECK_THAT(told("kind: slab, width: 400 mm, thickness: 20 mm, curb_height: 400 mm, curb_width: 20 mm"),
+             Contains("full of material it carries 1.57 kN on each metre"));
+}
+
+TEST_CASE("a stream that moves away from its belt does not land, and is not judged as one that does") {
+  const auto with = [](const std::string& belt, const std::string& friction = "25 deg") {
+    return parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}}\nbody: {friction_angle: " + friction +
+            ", entry_speed: 2 m/s}\nstream: {mass_flow: 100 t/h, bulk_density: 900 kg/m^3}\n"
+            "discharge: {belt_speed: 4.6 m/s, " +
+            belt +
+            "}\ncenterline: {kind: segments, entry_slope_angle: 60 deg, segments: "
+            "[{length: 1.5 m}, {to_slope_angle: 30 deg, radius: 3 m}]}\n"
+            "cross_section: {kind: u-channel, width: 600 mm, wall_height: 300 mm, thickness: 6 mm}\n",
+        "d.yaml");
+  };
+  const auto warned = [](const Design& design, const Track& track) {
+    for (const Issue& issue : warnings(design, track)) {
+      if (to_text(issue).find("does not land on its belt") != std::string::npos) return to_text(issue);
+    }
+    return std::string();
+  };
+  const Design away = with("belt_angle: -45 deg, drop: 50 mm");
+  const Track track = solve(away);
+  const json told = json::parse(track_json(away, track));
+  CHECK(told["discharge"].is_null());
+  for (const json& one : told["cases"]) CHECK(one["discharge"].is_null());
+  const std::vector<Judgement> all = judge_rules(away, track);
+  CHECK(verdict(all, "chute.6.belt").verdict == RuleVerdict::cannot_be_judged);
+  CHECK_THAT(verdict(all, "chute.6.belt").reason, Contains("it moves away from its belt"));
+  CHECK_THAT(warned(away, track), Contains("at 1.08") && Contains("comes from below"));
+  // It lands with more drop; where it does at the lowest friction alone that is told, too.
+  const Design lower = with("belt_angle: -45 deg, drop: 900 mm");
+  CHECK(warned(lower, solve(lower)).empty());
+  CHECK(verdict(judge_rules(lower, solve(lower)), "chute.6.belt").value);
+  CHECK(json::parse(track_json(lower, solve(lower)))["discharge"]["speed_into_belt_m_per_s"] > 0.0);
+  const Design ranged =
+      with("belt_angle: -39.2 deg, drop: 300 mm", "{low: 5 deg, nominal: 25 deg, high: 26 deg}");
+  CHECK_THAT(warned(ranged, solve(ranged)), Contains("at low friction, 5 deg, the stream does not land"));
+  CHECK_THAT(verdict(judge_rules(ranged, solve(ranged)), "chute.6.belt").reason, Contains("low friction"));
 }
 
 }  // namespace chute_test

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <regex>
 #include <string>
 #include <utility>
@@ -472,6 +473,146 @@ TEST_CASE("even burden depth is the constant-speed curve, at the friction of tha
     CHECK_THAT(error.what(), Contains("no track between these points keeps a stream at 1 m/s") &&
                                  Contains("an entry_speed of at least"));
   }
+}
+
+TEST_CASE(
+    "a speed that no track keeps is below the least one that is named, and above that every speed is kept") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int refused = 0;
+  int kept = 0;
+  const auto least_named = [](const std::string& text) -> std::optional<double> {
+    try {
+      const Track track = solve(parse_design(text, "d.yaml"));
+      const Body& body = track.motion.body();
+      const double v = body.entry_speed * body.entry_speed;
+      const double factor = body.law->resistance(0.0, v).factor;
+      // What is rounded grows: what is slower is deeper and rubs more, and presses more on a crest.
+      const double mu = factor * body.friction.coefficient();
+      const double grows =
+          std::exp((1.0 - 1.0 / factor) * 9.81 * track.endpoints.drop / v + 2.0 * mu * std::atan(mu));
+      if (const double rounding = 1e-11 * grows; rounding < 1e-3) {
+        REQUIRE(track.motion.arrived());
+        CHECK(track.motion.exit_speed() == Approx(body.entry_speed).epsilon(rounding));
+      }
+      return {};
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      INFO(what);
+      // How deep it comes in is another question.
+      if (what.find("the stream enters") != std::string::npos) return 0.0;
+      std::smatch found;
+      REQUIRE(std::regex_search(what, found, std::regex("an entry_speed of at least ([0-9.e-]+) m/s")));
+      CHECK_THAT(what, Contains("no track between these points keeps a stream at") &&
+                           Contains("From " + found[1].str() + " m/s on there is one at every speed"));
+      return std::stod(found[1]);
+    }
+  };
+  for (int draw = 0; draw < 60; ++draw) {
+    const double run = random.between(0.5, 8.0);
+    const double drop = random.between(0.3, 6.0);
+    const double chord = std::atan2(drop, run) / kDegree;
+    const double apart = draw % 2 == 0 ? random.between(-2.5, 1.0) : random.between(-0.4, 0.1);
+    const double friction = std::max(0.2, chord + apart);
+    const double flow = random.between(1.0, 30.0);
+    const auto text = [&](double speed) {
+      return fmt::format(
+          "glissade: 1\ntrack: {{start: {{x: 0 m, z: {} m}}, finish: {{x: {} m, z: 0 m}}}}\n"
+          "body: {{friction_angle: {} deg, entry_speed: {} m/s}}\n"
+          "stream: {{mass_flow: {} t/h, bulk_density: 800 kg/m^3}}\ncenterline: {{kind: constant-speed}}\n"
+          "cross_section: {{kind: u-channel, width: 300 mm, wall_height: 200 mm, thickness: 3 mm}}\n",
+          drop, run, friction, speed, flow);
+    };
+    double named = 0.0;
+    for (int i = 0; i < 25; ++i) {
+      const double speed = random.between(0.1, 3.0);
+      CAPTURE(run, drop, friction, flow, speed);
+      if (const auto least = least_named(text(speed))) {
+        if (*least == 0.0) continue;
+        CHECK(speed < *least);
+        named = std::max(named, *least);
+        ++refused;
+      } else {
+        ++kept;
+      }
+    }
+    if (named == 0.0) continue;
+    CAPTURE(run, drop, friction, flow, named);
+    for (const double more : {1.0, 1.0001, 1.003, 1.03, 1.1, 1.3, 2.0, 5.0}) {
+      CAPTURE(more);
+      if (named * more < 100.0) CHECK_FALSE(least_named(text(named * more)));
+    }
+  }
+  CHECK(refused > 100);
+  CHECK(kept > 300);
+}
+
+TEST_CASE(
+    "a stream whose speed rounding decides arrives with a speed, or chokes: never does it arrive at rest") {
+  for (const double speed : {0.5797, 0.5813388, 0.585, 0.597, 0.61}) {
+    CAPTURE(speed);
+    const Design design = parse_design(
+        fmt::format(
+            "glissade: 1\ntrack: {{start: {{x: 0 m, z: 5.3253982284 m}}, finish: {{x: 0.8020772461 m, z: 0 "
+            "m}}}}\n"
+            "body: {{friction_angle: 81.2737873241 deg, entry_speed: {} m/s}}\n"
+            "stream: {{mass_flow: 25.584128112 t/h, bulk_density: 800 kg/m^3}}\n"
+            "centerline: {{kind: constant-speed}}\n"
+            "cross_section: {{kind: u-channel, width: 300 mm, wall_height: 200 mm, thickness: 3 mm}}\n",
+            speed),
+        "d.yaml");
+    const Track track = solve(design);
+    CHECK(track.motion.exit_speed() > 0.0);
+    CHECK(track.motion.highest(BulkStream::kDepth).value <= 0.2 * (1.0 + 1e-9));
+  }
+}
+
+TEST_CASE(
+    "a stream close to the friction of the chord keeps each speed that a shot from the start finds a track "
+    "for") {
+  // Slopes at the start by shooting with Runge-Kutta steps, of 3 m of run and 4 m of drop.
+  const auto starts_at = [](double friction, double speed) {
+    const Design design = parse_design(
+        fmt::format(
+            "glissade: 1\ntrack: {{start: {{x: 0 m, z: 10 m}}, finish: {{x: 3 m, z: 6 m}}}}\n"
+            "body: {{friction_angle: {} deg, entry_speed: {} m/s}}\n"
+            "stream: {{mass_flow: 20 t/h, bulk_density: 800 kg/m^3}}\ncenterline: {{kind: constant-speed}}\n"
+            "cross_section: {{kind: u-channel, width: 300 mm, wall_height: 200 mm, thickness: 3 mm}}\n",
+            friction, speed),
+        "d.yaml");
+    return solve(design).centerline->slope_angle(0.0) / kDegree;
+  };
+  constexpr double kShooting = 0.002;  // accuracy: of the slopes below [deg]
+  CHECK(starts_at(52.0, 1.0) == Approx(58.135).margin(kShooting));
+  CHECK(starts_at(52.0, 1.36) == Approx(64.607).margin(kShooting));
+  CHECK(starts_at(52.0, 1.64) == Approx(63.786).margin(kShooting));
+  CHECK(starts_at(51.6, 1.06) == Approx(82.119).margin(kShooting));
+  CHECK(starts_at(51.8, 1.82) == Approx(66.356).margin(kShooting));
+}
+
+TEST_CASE("even burden depth is refused where friction or width changes along the track") {
+  const auto problem = [](const std::string& friction, const std::string& width, const std::string& p = "") {
+    try {
+      static_cast<void>(parse_design(
+          "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 4.3 m, z: 0 m}}\nbody: {" + friction +
+              ", entry_speed: 4 m/s}\nstream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}\n"
+              "centerline: {kind: constant-speed" +
+              p + "}\ncross_section: {kind: u-channel, width: " + width +
+              ", wall_height: 500 mm, thickness: 10 mm}\n",
+          "d.yaml"));
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string list = "friction: [{from: 0 m, angle: 27 deg}, {from: 2 m, angle: 24 deg}]";
+  const std::string narrower = "[{at: 0 m, width: 800 mm}, {at: 3 m, width: 700 mm}]";
+  CHECK(problem("friction_angle: 27 deg", "800 mm").empty());
+  CHECK_THAT(problem(list, "800 mm"),
+             Contains("constant-speed without p, where friction changes along the track"));
+  CHECK_THAT(problem("friction_angle: 27 deg", narrower),
+             Contains("without p, where the width changes along the track"));
+  CHECK(problem(list, narrower, ", p: 9 m^2/s^2").empty());
 }
 
 TEST_CASE("rides over the friction range tell each its stream; more friction is a deeper one") {

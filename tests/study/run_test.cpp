@@ -284,6 +284,50 @@ TEST_CASE("a chunk that is broken is found with the file and the line") {
   broken(renamed, "'arrivde' is no status");
 }
 
+TEST_CASE("a chunk that is cut off anywhere is found, in the middle of a number and of a quoted reason too") {
+  const TempDir place;
+  (void)run(study_of({vary("body.friction_angle=25deg,60deg")}), {.directory = place.path()});
+  const std::filesystem::path chunk = place.path() / "chunks" / "000000.csv";
+  const std::string good = bytes_of(chunk);
+  REQUIRE_THAT(good, Contains("\""));
+  for (std::size_t length = 0; length < good.size(); ++length) {
+    INFO(length);
+    std::ofstream(chunk, std::ios::binary) << good.substr(0, length);
+    CHECK_THROWS_AS(merged(place.path()), FileError);
+    CHECK_THROWS_WITH(merged(place.path()), Contains("000000.csv:") && Contains("remove this file"));
+  }
+  std::ofstream(chunk, std::ios::binary) << good.substr(0, good.size() - 1);
+  CHECK_THROWS_WITH(merged(place.path()), Contains("000000.csv:3: the line has no end: the file is cut off"));
+  std::ofstream(chunk, std::ios::binary) << good.substr(0, good.rfind('"')) << '\n';
+  CHECK_THROWS_WITH(merged(place.path()), Contains("000000.csv:3: a quotation mark is not closed"));
+  std::ofstream(chunk, std::ios::binary) << good;
+  CHECK_NOTHROW(merged(place.path()));
+}
+
+TEST_CASE("rows that the manifest does not tell of are refused, those of an edited manifest too") {
+  const TempDir place;
+  Study study = study_of({vary("body.friction_angle=5deg:25deg:1001")});
+  study.frozen = true;
+  (void)run(study, {.directory = place.path()});
+  const std::string all = merged(place.path());
+  const std::filesystem::path chunks = place.path() / "chunks";
+  std::ofstream(chunks / "notes.csv") << "no chunk\n";
+  std::ofstream(chunks / "7.csv") << "no chunk\n";
+  CHECK(merged(place.path()) == all);
+  std::filesystem::copy_file(chunks / "000001.csv", chunks / "000002.csv");
+  CHECK_THROWS_AS(merged(place.path()), FileError);
+  CHECK_THROWS_WITH(merged(place.path()), Contains("000002.csv: is none of the 2 chunks") &&
+                                              Contains("1001 points") && Contains("manifest.json"));
+  std::filesystem::remove(chunks / "000002.csv");
+  const std::filesystem::path manifest = place.path() / kManifestName;
+  std::string text = bytes_of(manifest);
+  const std::size_t points = text.find("\"points\": 1001");
+  REQUIRE(points != std::string::npos);
+  text.replace(points + 10, 4, "1000");
+  std::ofstream(manifest, std::ios::binary) << text;
+  CHECK_THROWS_WITH(merged(place.path()), Contains("000001.csv: is none of the 1 chunks"));
+}
+
 TEST_CASE("an interrupted run says that it can go on") {
   const TempDir place;
   std::stop_source stop;

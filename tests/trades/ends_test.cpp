@@ -197,4 +197,34 @@ TEST_CASE("landing on a belt: its own components are a turn of the stream's, wha
   CHECK(across.off_centre == Approx(-across.reach));
 }
 
+TEST_CASE("landing on a belt: what comes to its plane from below does not land") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int landed = 0;
+  int missed = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double speed = random.between(1.0, 8.0);
+    const double slope = random.between(-0.3, 0.6);
+    const double climb = random.between(-0.8, 0.4);
+    const ReceivingBelt belt{3.0, Angle::from_degrees(random.between(-60.0, 60.0)),
+                             Angle::from_radians(climb), random.between(0.01, 0.2), 0.5};
+    const BeltLanding landing = land_on_belt(speed, Angle::from_radians(slope), belt, 1600.0, kGravity);
+    // How high above its plane a stream is a little before it comes there, square to it.
+    const double before = 1e-6 * landing.time;
+    const double time = landing.time - before;
+    const double back = speed * std::cos(slope) * before * std::cos(belt.direction.radians());
+    const double height = belt.drop - speed * std::sin(slope) * time - 0.5 * kGravity * time * time;
+    CHECK(landing.lands() == (height * std::cos(climb) + back * std::sin(climb) > 0.0));
+    ++(landing.lands() ? landed : missed);
+  }
+  CHECK(landed > 20);
+  CHECK(missed > 20);
+  // Laid down along it, whatever its slope: no speed into it, and none away from it.
+  for (int degrees = 1; degrees < 60; ++degrees) {
+    CHECK(land_on_belt(4.0, Angle::from_degrees(degrees),
+                       {4.0, Angle{}, Angle::from_degrees(-degrees), 0.0, 0.5}, 1600.0, kGravity)
+              .lands());
+  }
+}
+
 }  // namespace ends_test

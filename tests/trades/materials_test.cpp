@@ -88,6 +88,14 @@ TEST_CASE("wheat on mild steel: all sources are heard, moisture narrows the one 
   const FrictionFound soaked = friction_on(wheat, steel, 0.25).value();
   REQUIRE(soaked.warnings.size() == 1);
   CHECK_THAT(soaked.warnings.front(), Contains("moisture: 25 % lies outside the 12 % to 18 %"));
+  for (const auto& [moisture, told] :
+       {std::pair{0.1199, "moisture: 11.99 % lies outside the 12 % to 18 %"},
+        std::pair{0.1801, "moisture: 18.01 % lies outside the 12 % to 18 %"},
+        std::pair{0.11999999, "moisture: 11.999999 % lies outside the 12 % to 18 %"}}) {
+    const FrictionFound beside = friction_on(wheat, steel, moisture).value();
+    REQUIRE(beside.warnings.size() == 1);
+    CHECK_THAT(beside.warnings.front(), Contains(told));
+  }
   CHECK(soaked.low == wet.low);
   CHECK_FALSE(friction_on(wheat, *library.liner("rubber")));
   CHECK(any.certainty() == Certainty::general_high);

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/design/stream_channel.hpp"
@@ -11,11 +12,15 @@
 
 namespace glissade {
 
+double StreamChannel::full_area() const {
+  return wall_height * (width.widest() + math::tan(wall_angle.radians()) * wall_height);
+}
+
 std::optional<StreamChannel> stream_channel(const CrossSectionDesign& section) {
   if (const auto* const channel = std::get_if<section::UChannel>(&section))
     return StreamChannel{channel->width, channel->wall_height};
   if (const auto* const channel = std::get_if<section::Trapezoid>(&section))
-    return StreamChannel{channel->width, channel->wall_height};
+    return StreamChannel{channel->width, channel->wall_height, channel->wall_angle};
   const auto* const slab = std::get_if<section::Slab>(&section);
   if (slab == nullptr || !(slab->curb_height > 0.0)) return {};
   return StreamChannel{slab->width, slab->curb_height};

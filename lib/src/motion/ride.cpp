@@ -349,6 +349,8 @@ Integrator::Verdict Integrator::judge_finish(const Panel& panel, bool may_split)
 /// True if rounding cannot tell the speed at the finish from zero.
 bool Integrator::rests_at_finish(const Panel& panel) const {
   if (panel.stretch.end != length_) return false;
+  // What chokes before it stands does not stand there, however little of its speed is known where small changes of it grow.
+  if (equation().law != nullptr && equation().law->least_v(length_) > 0.0) return false;
   return std::fabs(panel.v.back()) <= kRestRounding * (panel.kept * v_terms_ + panel.far_v_terms());
 }
 

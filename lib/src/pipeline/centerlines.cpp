@@ -18,6 +18,7 @@
 #include "pipeline/body.hpp"
 #include "pipeline/located.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -36,31 +37,105 @@ Endpoints endpoints_of(const Design& design) {
 
 namespace {
 
-/// The track on which a stream keeps the speed at which it enters, and with it its depth and its friction.
-/// @throws InputError if at that speed there is none, with the entry speed from which on there is
-CenterlinePtr make_even_depth(const Design& design, const Endpoints& endpoints) {
-  const Body body = body_of(design);
-  const auto friction_at = [&](double speed) {
-    return Friction::from_coefficient(body.law->resistance(0.0, speed * speed).factor *
-                                      body.friction.coefficient());
-  };
-  const double entry = body.entry_speed;
-  // A faster stream is thinner and rubs less: the least speed is a fixed point that a few steps find.
-  double needed = entry;
-  for (int i = 0; i < 20; ++i) {
-    needed = std::sqrt(ConstantSpeedCurve::smallest_p(endpoints, friction_at(needed), design.gravity));
+/// The tracks on which a stream keeps the speed at which it enters, and with it its depth and its friction.
+///
+/// A faster stream is thinner and rubs less. At the speed at which its friction angle is that of the chord the track is
+/// straight. Slower ones rub more: their tracks are crests, which start flatter the slower they are, in the end uphill, where
+/// a stream takes off. Faster ones rub less: their tracks start steeper than the chord, and where the speed is not enough to
+/// give off the energy steeper than vertical.
+class EvenDepth {
+ public:
+  EvenDepth(const Design& design, const Endpoints& endpoints)
+      : body_(body_of(design)), endpoints_(endpoints), gravity_(design.gravity) {}
+
+  [[nodiscard]] double entry() const { return body_.entry_speed; }
+  /// @return none where at that speed the stream chokes, or its track would start as none can
+  [[nodiscard]] std::optional<ConstantSpeedCurve> track(double speed) const;
+  [[nodiscard]] bool rubs_more_than_chord(double speed) const {
+    return friction_at(speed).coefficient() * std::abs(endpoints_.run) > endpoints_.drop;
   }
-  if (entry >= needed) {
-    return std::make_shared<ConstantSpeedCurve>(endpoints, friction_at(entry), design.gravity, entry * entry);
+  /// @return a speed from which on there is a track at every one, above all at which there is none [m/s]; none if there is
+  ///         no such speed
+  [[nodiscard]] std::optional<double> least_speed() const;
+
+ private:
+  [[nodiscard]] Friction friction_at(double speed) const {
+    return Friction::from_coefficient(body_.law->resistance(0.0, speed * speed).factor *
+                                      body_.friction.coefficient());
+  }
+  /// @return the speed at which a track with that friction starts upright [m/s]
+  [[nodiscard]] double upright(const Friction& friction) const {
+    return std::sqrt(ConstantSpeedCurve::smallest_p(endpoints_, friction, gravity_));
+  }
+  [[nodiscard]] double least_of_crests(double kept) const;
+
+  Body body_;
+  Endpoints endpoints_;
+  double gravity_;
+};
+
+std::optional<ConstantSpeedCurve> EvenDepth::track(double speed) const {
+  if (!(speed * speed > body_.law->least_v(0.0)) || speed < upright(friction_at(speed))) return {};
+  ConstantSpeedCurve curve(endpoints_, friction_at(speed), gravity_, speed * speed);
+  if (!curve.holds_body()) return {};
+  return curve;
+}
+
+/// @param kept  a speed from which on there is a track at every one [m/s]
+double EvenDepth::least_of_crests(double kept) const {
+  constexpr int kHalvings = 100;  // rounding: more than it takes to the last digit of a speed
+  double refused = 0.0;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double tried = 0.5 * (refused + kept);
+    (track(tried) ? kept : refused) = tried;
+  }
+  return kept;
+}
+
+std::optional<double> EvenDepth::least_speed() const {
+  constexpr double kFastest = 1e6;  // budget: beyond all speeds of designs [m/s]
+  if (!track(kFastest)) return {};
+  if (body_.friction.coefficient() * std::abs(endpoints_.run) >= endpoints_.drop)
+    return least_of_crests(kFastest);
+  // What a speed needs falls with that speed, and most is needed by one without depth. From there every step ends above the
+  // greatest speed that is just enough, and between two of them there is a track at every one. A step the other way, from a
+  // speed that is too low, leads anywhere.
+  constexpr int kSteps = 10'000;     // budget: of some microseconds each
+  constexpr double kSettled = 1e-9;  // accuracy: relative, below what a message shows
+  double kept = kFastest;
+  double needed = upright(body_.friction);
+  for (int i = 0; i < kSteps && needed < kept * (1.0 - kSettled); ++i) {
+    if (rubs_more_than_chord(needed)) return least_of_crests(kept);
+    kept = needed;
+    needed = upright(friction_at(kept));
+  }
+  return std::max(kept, std::sqrt(body_.law->least_v(0.0)));
+}
+
+/// @throws InputError if at the entry speed there is no such track, with the speed from which on there is
+CenterlinePtr make_even_depth(const Design& design, const Endpoints& endpoints) {
+  const EvenDepth even(design, endpoints);
+  if (const auto curve = even.track(even.entry())) return std::make_shared<ConstantSpeedCurve>(*curve);
+  constexpr double kBeyond = 1.0 + 1e-3;  // rounding: not rounded onto what is not enough
+  constexpr int kDigits = 4;              // taste
+  const auto text = [](double speed, int digits) { return rounded_text(speed, digits) + " m/s"; };
+  const bool crest = even.rubs_more_than_chord(even.entry());
+  std::string entry = text(even.entry(), kDigits);
+  std::string least;
+  std::string hint;
+  if (const auto needed = even.least_speed()) {
+    entry = text_beyond(even.entry(), {kBeyond * *needed}, text, kDigits);
+    least = " From " + text(kBeyond * *needed, kDigits) + " on there is one at every speed.";
+    hint = "an entry_speed of at least " + text(kBeyond * *needed, kDigits) + ", ";
   }
   throw InputError(
       {design.where("body.entry_speed"),
-       "entry_speed: no track between these points keeps a stream at " + rounded_text(entry, 4) + " m/s",
-       "Slower than " + rounded_text(needed, 4) +
-           " m/s it would have to start steeper than vertical to give off enough energy: even "
-           "burden depth is the constant-speed curve (docs/chutes.md).",
-       "an entry_speed of at least " + rounded_text(needed * (1.0 + 1e-3), 4) +
-           " m/s, ends less steep, or kind: fastest"});
+       "entry_speed: no track between these points keeps a stream at " + entry,
+       std::string(crest ? "So deep it rubs more than the drop gives: it would have to start uphill, where a "
+                           "stream takes off."
+                         : "It would have to start steeper than vertical to give off enough energy.") +
+           least + " Even burden depth is the constant-speed curve (docs/chutes.md).",
+       hint + (crest ? "steeper ends, or kind: fastest" : "ends less steep, or kind: fastest")});
 }
 
 CenterlinePtr make_constant_speed(const Design& design, const Endpoints& endpoints) {

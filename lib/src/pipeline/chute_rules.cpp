@@ -60,12 +60,28 @@ Body surging(const StreamDesign& stream, const Body& body) {
   return with_flow(with_density(body, stream.low_density.value_or(stream.bulk_density)), stream.surge);
 }
 
-double highest_friction_angle(const Design& design) {
-  return design.body.high_friction.value_or(design.body.friction).angle().radians();
+/// The highest friction angle at a place: of a range its upper end, where it changes along the track that of the place [rad].
+double highest_friction_angle(const BodyDesign& body, double s) {
+  Friction friction = body.high_friction.value_or(body.friction);
+  for (const FrictionFrom& change : body.friction_changes) {
+    if (change.from <= s) friction = change.friction;
+  }
+  return friction.angle().radians();
+}
+
+/// Ascending arc lengths, those of a centerline and others as far as they lie within it [m].
+std::vector<double> breaks_with(const Centerline& centerline, const std::vector<double>& others) {
+  std::vector<double> breaks = centerline.breaks();
+  for (const double at : others) {
+    if (at > 0.0 && at < centerline.length()) breaks.push_back(at);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  return breaks;
 }
 
 /// Of all flows the largest stops first: it is deeper at each speed, rubs more and is slower.
-void measure_stall_margin(const Design& design, const Track& track, double high, Measurements& measurements) {
+void measure_stall_margin(const Design& design, const Track& track, Measurements& measurements) {
   if (!lands(track.motion)) {
     measurements.set_missing("stall_margin", "a feed that lands: it flies over the start");
     return;
@@ -74,32 +90,44 @@ void measure_stall_margin(const Design& design, const Track& track, double high,
   const bool surges = stream.surge > 1.0;
   const Body body = surges ? surging(stream, body_of(design)) : body_of(design);
   if (const auto stops = stall_friction_angle(track.centerline, body, design.gravity))
-    measurements.set("stall_margin", stops->radians() - high, {}, surges ? "surge flow" : "nominal flow");
+    // That angle is the start's, and so is the one that it is held against: all along friction changes with it.
+    measurements.set("stall_margin", stops->radians() - highest_friction_angle(design.body, 0.0), {},
+                     surges ? "surge flow" : "nominal flow");
+}
+
+/// Where friction changes along the track each floor is held against what rubs there.
+void measure_slope_margin(const BodyDesign& body, const Centerline& centerline, Measurements& measurements) {
+  std::vector<double> changes;
+  for (const FrictionFrom& change : body.friction_changes) changes.push_back(change.from);
+  const std::vector<double> breaks = breaks_with(centerline, changes);
+  const Extreme flattest = highest_along(
+      breaks, [&](double s) { return highest_friction_angle(body, s) - centerline.slope_angle(s); });
+  measurements.set("slope_margin", -flattest.value, flattest.at);
+  double roughest = 0.0;
+  for (const double s : breaks) {
+    // What begins where the track ends rubs nothing.
+    if (s < centerline.length()) roughest = std::max(roughest, highest_friction_angle(body, s));
+  }
+  measurements.set("highest_friction_angle", roughest);
+  // How far it is known at one place: that it changes along the track is no range.
+  measurements.set("friction_spread", body.high_friction.value_or(body.friction).angle().radians() -
+                                          body.low_friction.value_or(body.friction).angle().radians());
 }
 
 void measure_slopes(const Design& design, const Track& track, Measurements& measurements) {
-  const BodyDesign& body = design.body;
-  const double high = highest_friction_angle(design);
-  const double low = body.low_friction.value_or(body.friction).angle().radians();
-  measurements.set("highest_friction_angle", high);
-  measurements.set("friction_spread", high - low);
   const Centerline& centerline = *track.centerline;
-  const Extreme flattest = highest_along(centerline, [&](double s) { return -centerline.slope_angle(s); });
-  measurements.set("slope_margin", -flattest.value - high, flattest.at);
+  measure_slope_margin(design.body, centerline, measurements);
   // The corner between floor and wall runs along the track; where the width changes, across it too.
   const BulkStream& stream = *stream_of(track.motion.body());
-  std::vector<double> breaks = centerline.breaks();
-  for (const WidthAt& knot : stream.shape().width.knots()) {
-    if (knot.at > 0.0 && knot.at < centerline.length()) breaks.push_back(knot.at);
-  }
-  std::sort(breaks.begin(), breaks.end());
-  breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
+  std::vector<double> knots;
+  for (const WidthAt& knot : stream.shape().width.knots()) knots.push_back(knot.at);
+  const std::vector<double> breaks = breaks_with(centerline, knots);
   const Extreme valley = highest_along(breaks, [&](double s) {
     const double turned = math::atan(0.5 * stream.width_slope(s));
     return -math::asin(math::sin(centerline.slope_angle(s)) * math::cos(turned));
   });
   measurements.set("valley_angle", -valley.value, valley.at);
-  measure_stall_margin(design, track, high, measurements);
+  measure_stall_margin(design, track, measurements);
 }
 
 /// Whether a case passes its hood, if it has one, gets onto its track and down to the finish.
@@ -262,6 +290,12 @@ void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases
   }
   const ChuteCase* of = nullptr;
   for (const auto& [landing, run] : landings) {
+    if (!landing.lands()) {
+      for (const char* const key : {"belt_match", "speed_into_belt"})
+        measurements.set_missing(
+            key, "a stream that lands: with " + case_text(*run) + " it moves away from its belt");
+      return;
+    }
     into.see(landing.speed_into, run->motion.distance(), *run);
     if (worst != nullptr && std::fabs(landing.match - 1.0) <= std::fabs(worst->match - 1.0)) continue;
     worst = &landing;
@@ -359,7 +393,7 @@ void measure_channel(const Design& design, const Track& track, Measurements& mea
   }
   const StreamChannel channel = stream_channel(design.cross_section.value()).value();
   const double density = design.stream->high_density.value_or(design.stream->bulk_density);
-  const double full = density * design.gravity * channel.width.widest() * channel.wall_height;
+  const double full = density * design.gravity * channel.full_area();
   measurements.set_missing("plugged_load", "to be shown by its designer: full of material it carries " +
                                                rounded_text(full / 1e3, 3) + " kN on each metre");
   measurements.set_missing("corner_radius", "to be looked at: the section has sharp inner corners");

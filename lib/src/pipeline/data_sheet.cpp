@@ -249,6 +249,12 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string friction_range_text(const BodyDesign& body) {
   const auto degrees = [](const Friction& friction) { return rounded_text(friction.angle().degrees(), 3); };
+  if (body.friction_changes.size() > 1) {
+    const auto [least, most] = std::minmax_element(
+        body.friction_changes.begin(), body.friction_changes.end(),
+        [](const FrictionFrom& a, const FrictionFrom& b) { return a.friction < b.friction; });
+    return degrees(least->friction) + " to " + degrees(most->friction) + " deg along the track";
+  }
   if (!body.low_friction && !body.high_friction) return degrees(body.friction) + " deg";
   return degrees(body.low_friction.value_or(body.friction)) + " / " + degrees(body.friction) + " / " +
          degrees(body.high_friction.value_or(body.friction)) + " deg";
@@ -331,10 +337,14 @@ Rows ride_rows(const Design& design, const Track& track) {
         [&](const Motion& m) { return rounded_text(hood_passage(design, m.body()).motion.exit_speed(), 3); });
   }
   if (design.discharge) {
-    add("along the belt [m/s]",
-        arrived([&](const Motion& m) { return rounded_text(belt_landing(design, m).speed_along, 3); }));
-    add("into the belt [m/s]",
-        arrived([&](const Motion& m) { return rounded_text(belt_landing(design, m).speed_into, 3); }));
+    const auto landed = [&](double BeltLanding::*speed) {
+      return arrived([&design, speed](const Motion& m) {
+        const BeltLanding landing = belt_landing(design, m);
+        return landing.lands() ? rounded_text(landing.*speed, 3) : std::string("-");
+      });
+    };
+    add("along the belt [m/s]", landed(&BeltLanding::speed_along));
+    add("into the belt [m/s]", landed(&BeltLanding::speed_into));
   }
   return rows;
 }

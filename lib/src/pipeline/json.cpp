@@ -153,6 +153,12 @@ Json wear_json(const Design& design, const Track& track) {
   return json;
 }
 
+/// @return null of a stream that never lands
+Json discharge_json(const Design& design, const Motion& motion) {
+  const BeltLanding landing = belt_landing(design, motion);
+  return landing.lands() ? belt_landing_json(landing) : Json(nullptr);
+}
+
 /// Every friction with every flow, by what differs.
 Json cases_json(const Design& design, const CenterlinePtr& centerline) {
   Json list = Json::array();
@@ -170,7 +176,7 @@ Json cases_json(const Design& design, const CenterlinePtr& centerline) {
                  {"stream", entry["stream"]}};
     if (run.hood) kept["hood"] = hood_passage_json(*run.hood);
     if (design.discharge && run.motion.arrived() && enters(run.motion))
-      kept["discharge"] = belt_landing_json(belt_landing(design, run.motion));
+      kept["discharge"] = discharge_json(design, run.motion);
     list.push_back(std::move(kept));
   }
   return list;
@@ -262,9 +268,8 @@ Json pipeline::track_document(const Design& given, const Track& track, Told told
     if (design.hood) add_hood(json, design, track, impact);
   }
   if (design.discharge) {
-    json["discharge"] = track.motion.arrived() && enters(track.motion)
-                            ? belt_landing_json(belt_landing(design, track.motion))
-                            : Json(nullptr);
+    json["discharge"] =
+        track.motion.arrived() && enters(track.motion) ? discharge_json(design, track.motion) : Json(nullptr);
   }
   if (design.stream) {
     json["stream"]["choking_mass_flow_kg_per_s"] =

@@ -34,6 +34,7 @@ ReportWhatIf as_reported(const Design& design, const WhatIfRide& one) {
   ReportWhatIf reported{one.mass_flow, one.motion.body().friction, one.nominal, &one.motion, {}, {}};
   if (design.discharge && one.motion.arrived() && enters(one.motion))
     reported.landing = belt_landing(design, one.motion);
+  if (reported.landing && !reported.landing->lands()) reported.landing.reset();
   reported.flight = flight_to_belt(design, one.motion);
   return reported;
 }

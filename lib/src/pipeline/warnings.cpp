@@ -10,8 +10,10 @@
 #include "glissade/pipeline/solve.hpp"
 #include "glissade/section/measures.hpp"
 #include "glissade/solid/sweep.hpp"
+#include "glissade/trades/chute/ends.hpp"
 
 #include "pipeline/cross_section.hpp"
+#include "pipeline/friction_range.hpp"
 #include "pipeline/probes.hpp"
 
 #include <algorithm>
@@ -226,6 +228,25 @@ std::optional<Issue> belt_too_fast(const Design& design) {
       "a slower belt, or a longer drop"};
 }
 
+/// A stream that comes to the plane of its belt from below.
+std::optional<Issue> misses_belt(const Design& design, const Track& track) {
+  if (!design.discharge) return {};
+  for (const LevelRide& ride : track.rides()) {
+    const Motion& motion = *ride.motion;
+    if (!motion.arrived() || !enters(motion)) continue;
+    const BeltLanding landing = belt_landing(design, motion);
+    if (landing.lands()) continue;
+    const std::string when = ride.level == FrictionLevel::nominal ? "" : at_friction_text(ride) + ", ";
+    return Issue{design.where("discharge"),
+                 when + "the stream does not land on its belt: it moves away from it, at " +
+                     quantity_text(-landing.speed_into, Dimension::speed) + ", where it comes to its plane",
+                 "The belt falls more steeply there than the stream, which comes from below: there is no "
+                 "impact to judge.",
+                 "a belt_angle that falls less, a longer drop, or a steeper end of the track"};
+  }
+  return {};
+}
+
 /// A section that finds no room along the track: clearances are told of a solid that cannot be made.
 std::optional<Issue> no_room_for_section(const Design& design, const Track& track) {
   constexpr double kCoarse = 1e-3;  // taste: of the section's height
@@ -253,6 +274,7 @@ std::vector<Issue> warnings(const Design& design, const Track& track) {
   if (auto issue = missed_alone(design, track)) found.push_back(*std::move(issue));
   if (auto issue = radius_open(design, track)) found.push_back(*std::move(issue));
   add_material_warnings(design, found);
+  if (auto issue = misses_belt(design, track)) found.push_back(*std::move(issue));
   if (auto issue = belt_too_fast(design)) found.push_back(*std::move(issue));
   if (auto issue = no_room_for_section(design, track)) found.push_back(*std::move(issue));
   for (Issue& issue : probes_beside_track(design, track)) found.push_back(std::move(issue));

@@ -5,6 +5,7 @@
 #include "study/manifest.hpp"
 #include "study/table_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <system_error>
@@ -28,9 +29,30 @@ std::string heading_of(const Results& results) {
   return line;
 }
 
+/// Rows that the manifest does not know of are those of another sweep, or the manifest is not the one that was written.
+void refuse_strays(const Results& results) {
+  std::vector<fs::path> strays;
+  std::error_code none;
+  for (fs::directory_iterator entry(results.directory() / "chunks", none), end; !none && entry != end;
+       entry.increment(none)) {
+    const std::string name = entry->path().stem().string();
+    std::uint64_t chunk = 0;
+    const auto [rest, status] = std::from_chars(name.data(), name.data() + name.size(), chunk);
+    if (status != std::errc() || entry->path() != chunk_path(results.directory(), chunk)) continue;
+    if (rest == name.data() + name.size() && chunk >= results.chunks()) strays.push_back(entry->path());
+  }
+  if (strays.empty()) return;
+  throw FileError({std::min_element(strays.begin(), strays.end())->string(),
+                   "is none of the " + std::to_string(results.chunks()) + " chunks of this sweep",
+                   "The manifest beside it tells of " + std::to_string(results.points()) + " points, of " +
+                       std::to_string(kChunkRows) + " to a chunk: the rows are those of more.",
+                   "the manifest.json that the sweep wrote, or without this file"});
+}
+
 /// The lines of all chunks in their order, each with its file and number.
 void for_each_line(const Results& results, const Progress& progress, const std::stop_token& stop,
                    const std::function<void(const std::string&, const fs::path&, std::size_t)>& visit) {
+  refuse_strays(results);
   const std::string heading = heading_of(results);
   for (std::uint64_t chunk = 0; chunk < results.chunks(); ++chunk) {
     if (stop.stop_requested()) throw Interrupted({results.directory().string(), "interrupted", "", ""});
@@ -50,7 +72,12 @@ void for_each_line(const Results& results, const Progress& progress, const std::
     std::size_t number = 1;
     if (!std::getline(stream, line) || line != heading)
       throw_broken(file, 1, "the heading is not that of the manifest");
-    while (std::getline(stream, line)) visit(line, file, ++number);
+    while (std::getline(stream, line)) {
+      ++number;
+      // A number that is cut off is one, too.
+      if (stream.eof()) throw_broken(file, number, "the line has no end: the file is cut off");
+      visit(line, file, number);
+    }
     const std::uint64_t first = chunk * kChunkRows;
     const std::uint64_t rows = std::min(kChunkRows, results.points() - first);
     if (number != rows + 1) {
@@ -66,9 +93,17 @@ std::optional<double> as_number(const std::string& cell) {
   return value;
 }
 
+std::vector<std::string> cells_of_row(const std::string& line, const fs::path& file, std::size_t number) {
+  try {
+    return cells_of(line);
+  } catch (const InputError& error) {
+    throw_broken(file, number, error.issues().front().what);
+  }
+}
+
 Row row_of(const Results& results, const std::string& line, std::uint64_t expected, const fs::path& file,
            std::size_t number) {
-  const std::vector<std::string> cells = cells_of(line);
+  const std::vector<std::string> cells = cells_of_row(line, file, number);
   const std::size_t inputs = results.inputs().size();
   if (cells.size() != 3 + inputs + results.quantities().size())
     throw_broken(file, number, "the row is not complete");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "glissade/core/units.hpp"
 #include "glissade/core/width_law.hpp"
 #include "glissade/design/design.hpp"
 
@@ -11,11 +12,14 @@ namespace glissade {
 /// What a stream runs in: a flat floor between two walls.
 struct StreamChannel {
   WidthLaw width;            ///< of the floor along the track [m]
-  double wall_height = 0.0;  ///< [m]
+  double wall_height = 0.0;  ///< upright [m]
+  Angle wall_angle = {};     ///< from upright, outward
   /// @return whether a stream spills over the wall before it is as deep as its channel is wide, everywhere
   [[nodiscard]] bool has_low_walls() const { return wall_height < width.narrowest(); }
   /// @return the least depth at which a stream chokes [m]: its wall, or its width, at which Roberts' law ends
   [[nodiscard]] double deepest() const { return std::min(width.narrowest(), wall_height); }
+  /// @return the area of what fills it up to the tops of its walls, where it is widest [m^2]
+  [[nodiscard]] double full_area() const;
 };
 
 /// @return the channel that a cross-section is for a stream: of a trapezoid its floor, of a slab what lies

@@ -103,7 +103,7 @@ struct ReportWhatIf {
   Friction friction;       ///< of the wall
   bool nominal = false;    ///< the design's own
   const Motion* motion = nullptr;
-  std::optional<BeltLanding> landing;  ///< none without a belt, or where it does not arrive
+  std::optional<BeltLanding> landing;  ///< none without a belt, or where it does not arrive or land
   std::vector<Vec2> flight;            ///< to the belt: x run from the start, y height z [m]; may be empty
 };
 

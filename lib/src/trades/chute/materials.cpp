@@ -15,8 +15,8 @@ const Thing* find_word(const std::vector<Thing>& things, std::string_view word) 
   return found == things.end() ? nullptr : &*found;
 }
 
-std::string percent(double share) {
-  return rounded_text(100.0 * share, 3) + " %";
+std::string percent(double share, int digits) {
+  return rounded_text(100.0 * share, digits) + " %";
 }
 
 /// A source read at a moisture; what it does not tell is a warning.
@@ -26,8 +26,11 @@ WallFriction at_moisture(WallFriction friction, std::optional<double> moisture,
   const double dry = *friction.moisture->lowest;
   const double wet = *friction.moisture->highest;
   if (*moisture < dry || *moisture > wet) {
-    warnings.push_back("moisture: " + percent(*moisture) + " lies outside the " + percent(dry) + " to " +
-                       percent(wet) + " that was measured (" + friction.from.text + ")");
+    constexpr int kDigits = 3;  // taste: as moistures are told
+    const auto [below, least] = texts_apart(*moisture, dry, &percent, kDigits);
+    const auto [above, most] = texts_apart(*moisture, wet, &percent, kDigits);
+    warnings.push_back("moisture: " + (*moisture < dry ? below : above) + " lies outside the " + least +
+                       " to " + most + " that was measured (" + friction.from.text + ")");
   }
   if (friction.low == friction.high) return friction;
   const double share = std::clamp((*moisture - dry) / (wet - dry), 0.0, 1.0);

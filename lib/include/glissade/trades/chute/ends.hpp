@@ -67,8 +67,14 @@ struct ReceivingBelt {
   double friction = 0.5;  ///< mu_b between stream and belt
 };
 
-/// How a stream lands on a belt (docs/chutes.md, discharge).
+/// So little of its speed away from a belt is rounding of one that is laid down along it.
+inline constexpr double kBeltLandingRounding = 1e-9;  // rounding: of angles in degrees and back
+
+/// How a stream lands on a belt (docs/chutes.md, discharge): what it does where it comes to the belt's plane, below the finish.
 struct BeltLanding {
+  /// @return false of one that moves away from the belt there: it comes from below, and never lands
+  [[nodiscard]] bool lands() const noexcept { return speed_into >= -kBeltLandingRounding * speed; }
+
   double speed_along = 0.0;   ///< of the stream along the belt [m/s]
   double speed_into = 0.0;    ///< square to it, downwards [m/s]
   double speed_across = 0.0;  ///< in the belt's plane, square to its run, to the left [m/s]
