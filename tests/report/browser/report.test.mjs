@@ -387,6 +387,29 @@ export: [stl]
   });
 });
 
+describe("gates", () => {
+  test("save their charts as drawings and pictures", async () => {
+    const { page, complaints } = await open(plain, build(path.join(designs, "hills/kulm_hs235.yaml")).file, SMALL);
+    for (const chart of ["Speed at the measuring place", "Highest normal load"]) {
+      for (const format of ["SVG", "PNG"]) {
+        const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: `Save gates ${chart} as ${format}`, exact: true }).click()]);
+        const bytes = readFileSync(await download.path());
+        if (format === "SVG") {
+          const text = bytes.toString();
+          assert.match(text, /^<svg[^>]* width="640"[\s\S]*<polyline[\s\S]*<\/svg>$/);
+          assert.ok(text.includes(`: ${chart.toLowerCase()}`) && text.includes("gate, from the lowest"));
+          assert.ok(!/color\(|color-mix|var\(|rgba\(/.test(text.replaceAll(/ (?:fill|stroke)="var\([^)]*\)"/g, "")));
+        } else {
+          assert.equal(bytes.subarray(1, 4).toString(), "PNG");
+          assert.equal(bytes.readUInt32BE(16), 1280);
+        }
+      }
+    }
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
 describe("a stream", () => {
   let page;
   let complaints;

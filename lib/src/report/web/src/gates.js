@@ -88,7 +88,7 @@ export function gatesSection(doc, store, units) {
     const charts = CHARTS.map((chart) => [chart[0], drawn(doc, units, chart)]).filter(([, svg]) => svg !== null);
     holder.replaceChildren(element("div", { class: "charts gates-charts" }, ...charts.map(([title, svg]) => element("figure", { class: "chart" },
       element("figcaption", {}, element("span", { class: "chart-title" }, title),
-        element("span", { class: "exports" }, exportButtons(doc.design.stem, `gates ${title}`, () => ({ svg: standAlone(svg), width: SIZE.width, height: SIZE.height })))), svg))),
+        element("span", { class: "exports" }, exportButtons(doc.design.stem, `gates ${title}`, () => standAlone(svg, { title: `${doc.design.name}: ${title.toLowerCase()}`, legend: [] })))), svg))),
     ...[table(doc, units)].flat());
   };
   const hint = element("p", { class: "hint" });
