@@ -477,6 +477,13 @@ describe("a comparison", () => {
       await page.setViewportSize({ width, height: 900 });
       const [content, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
       assert.ok(content <= room, `${content} px of content in ${room}`);
+      // A table that goes on beyond its room says so, one that does not says nothing.
+      const [goesOn, height] = await page.evaluate(() => {
+        const holder = document.querySelector(".scroll");
+        return [holder.scrollWidth > holder.clientWidth, document.querySelector(".more").getBoundingClientRect().height];
+      });
+      assert.equal(goesOn, width === 390);
+      assert.equal(height > 10, goesOn, `a remark ${height} px high at ${width}`);
     }
     assert.equal(await page.locator("figure").count(), 4);
     assert.deepEqual(complaints, []);
