@@ -3,6 +3,7 @@
 #include "glissade/core/version.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
+#include "report/body_energy.hpp"
 #include "report/parts_view.hpp"
 #include "report/ride_stations.hpp"
 #include "report/serial/packed.hpp"
@@ -378,6 +379,17 @@ Json what_if_of(const ReportInput& input) {
   return list;
 }
 
+/// The body of the ride: with a feed its entry speed follows from the track.
+Json ridden_body(const ReportInput& input) {
+  const BodyEnergy energy(*input.motion);
+  Json body;
+  add_body(body, *input.design);
+  body["entry_speed_m_per_s"] = input.motion->body().entry_speed;
+  body["inertia_factor"] = energy.inertia();
+  body["centre_height_m"] = energy.centre_height();
+  return body;
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_document(const ReportInput& input) {
@@ -396,9 +408,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
                            {"finish_m", position_json(finish_of(input))},
                            {"azimuth_deg", input.placement.azimuth().degrees()}};
   document["endpoints"] = {{"run_m", input.endpoints.run}, {"drop_m", input.endpoints.drop}};
-  add_body(document["body"], design);
-  // With a feed it follows from the track.
-  document["body"]["entry_speed_m_per_s"] = input.motion->body().entry_speed;
+  document["body"] = ridden_body(input);
   document["ride"] = ride_facts(input);
   document["rides"] = rides_of(input);
   document["probes"] = probes_json(input.probes);

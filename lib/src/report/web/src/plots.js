@@ -15,13 +15,19 @@ const AXES = {
   time_s: ["time", "time"],
 };
 
+// Of the motion of the centre of mass and of the spin; with what is lost and the potential energy of the centre it sums to one
+// constant at every station (docs/theory.md, M3). None from where the ride ends.
+const kineticEnergies = ({ stations, body }) =>
+  stations.speed_m_per_s.map((speed) => (speed === null ? null : 0.5 * body.inertia_factor * speed * speed));
+
 function energies(doc) {
   const { stations, body } = doc;
-  const total = doc.body.gravity_m_per_s2;
-  const lowest = Math.max(...stations.drop_m);
+  const rise = (station) => Math.cos((stations.slope_angle_deg[station] * Math.PI) / 180);
+  const drops = stations.drop_m.map((drop, i) => drop - body.centre_height_m * (rise(i) - rise(0)));
+  const lowest = Math.max(...drops);
   return {
-    potential: stations.drop_m.map((drop) => total * (lowest - drop)),
-    kinetic: stations.speed_m_per_s.map((speed) => 0.5 * speed * speed),
+    potential: drops.map((drop) => body.gravity_m_per_s2 * (lowest - drop)),
+    kinetic: kineticEnergies(doc),
     friction: stations.friction_loss_j_per_kg,
     drag: stations.drag_loss_j_per_kg,
     hasDrag: body.drag_per_m > 0,
@@ -336,8 +342,8 @@ export function plotSection(doc, store, units, rides) {
   for (const key of ["axis", "units", "theme", "paper"]) store.on(key, redraw);
   store.on("friction", () => {
     const kinetic = list.find((chart) => chart.id === "energy").series[1][1];
-    doc.stations.speed_m_per_s.forEach((speed, i) => {
-      kinetic[i] = 0.5 * speed * speed;
+    kineticEnergies(doc).forEach((energy, i) => {
+      kinetic[i] = energy;
     });
     redraw();
   });
@@ -347,7 +353,7 @@ export function plotSection(doc, store, units, rides) {
       button("Whole track", () => all.forEach((chart) => chart.resetZoom()))),
     readout(doc, store, units),
     element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all. Keys, once a plot is selected: arrows move the cursor, + and \u2212 zoom, 0 shows all. "
-      + "Potential energy counts from the lowest point of the track. Where curvature or load are unbounded, their axes end before; that of the radius ends at twice the length of the track."),
+      + "Potential energy is that of the centre of mass and counts from its lowest place, kinetic energy includes the spin of what rolls. Where curvature or load are unbounded, their axes end before; that of the radius ends at twice the length of the track."),
     element("div", { class: "charts" }, all.map((chart) => chart.node)));
   return { node, draw: redraw, charts: all };
 }
