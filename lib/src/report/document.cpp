@@ -11,6 +11,7 @@
 #include "report/serial/pattern.hpp"
 #include "report/serial/stream.hpp"
 #include "report/serial/vocabulary.hpp"
+#include "report/station_table.hpp"
 #include "report/view_mesh.hpp"
 
 #include <algorithm>
@@ -190,6 +191,7 @@ Json rides_of(const ReportInput& input) {
           ? std::vector<ReportRide>{{FrictionLevel::nominal, input.motion, input.checks, input.flights}}
           : input.rides;
   const std::vector<double> stations = ride_stations(*input.motion);
+  const StationGrid grid = station_grid(*input.motion);
   Json list = Json::array();
   for (const ReportRide& ride : rides) {
     list.push_back(ride_json(ride.level, *ride.motion, input.stall_angle));
@@ -198,6 +200,7 @@ Json rides_of(const ReportInput& input) {
     list.back()["checks"] = checks_of(ride.checks);
     list.back()["flights"] = flights_of(ride.flights);
     list.back()["stations"] = ride_columns(*ride.motion, stations);
+    list.back()["table"] = ride_table(*ride.motion, grid);
   }
   return list;
 }
@@ -426,6 +429,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["mesh"] = mesh_of(input);
   document["files"] = files_of(input);
   document["stations"] = ride_line(*input.motion, height);
+  document["table"] = track_table(*input.motion, station_grid(*input.motion), height);
   document["straight"] = input.straight ? ride_line(*input.straight, height) : Json(nullptr);
   document["optimum"] = input.optimum ? ride_line(*input.optimum, height) : Json(nullptr);
   document["view"] = view_of(input);
