@@ -2,7 +2,7 @@ import uPlot from "uplot";
 import { radiusOf } from "./data.js";
 import { button, element, section, select, svgElement, themeColour } from "./dom.js";
 import { exportButtons } from "./export.js";
-import { columnText, number } from "./units.js";
+import { columnText, tickTexts } from "./units.js";
 
 const SYNC = "glissade";
 const HEIGHT = 220;
@@ -152,7 +152,9 @@ class Chart {
     const scale = this.store.get("paper") ? PAPER.scale : 1;
     const width = this.store.get("paper") ? PAPER.width : Math.max(this.holder.clientWidth, 200);
     const font = `${12 * scale}px system-ui, sans-serif`;
-    const tick = (_, values) => values.map((v) => (v === null ? "" : number(v, 4)));
+    const tick = (_, values) => tickTexts(values);
+    // A range far from zero has many digits: the axis makes room for them.
+    const room = (_, texts) => Math.max(60, 18 + 7 * Math.max(...(texts ?? []).map((text) => text.length), 0)) * scale;
     const bounds = chart.range?.(chart.series.flatMap(([, column]) => column))?.map((v) => units.convert(chart.quantity, v));
     this.plot = new uPlot({
       width: width * scale,
@@ -162,7 +164,7 @@ class Chart {
       scales: { x: { time: false }, y: bounds ? { range: () => bounds } : {} },
       axes: [
         { label: `${axisName} [${units.unit(axisQuantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 44 * scale, labelSize: 26 * scale, gap: 5 * scale },
-        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 60 * scale, labelSize: 24 * scale, gap: 5 * scale },
+        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: room, labelSize: 24 * scale, gap: 5 * scale },
       ],
       series: [{}, ...chart.series.map(([name, , colour, band]) => ({
         label: name, stroke: themeColour(colour) + (band ? "80" : ""), width: (band ? 1 : 2) * scale, points: { show: false },
@@ -297,7 +299,9 @@ function readout(doc, store, units) {
   ];
   let texts = [];
   const measure = () => {
+    const place = units.place(doc.ride.arc_length_m, true);
     texts = fields.map(([, quantity, key]) => {
+      if (key === "z_m") return (value) => `${place(value)}\u00a0${units.unit(quantity)}`;
       const text = columnText(stations[key].map((v) => units.convert(quantity, v)), 5);
       return (value) => (value === null ? units.missing(quantity) : `${text(units.convert(quantity, value))}\u00a0${units.unit(quantity)}`);
     });

@@ -79,7 +79,8 @@ function task({ endpoints, body: nominal, placement, ride }, units) {
   const shown = Object.fromEntries(["friction_angle_deg", "friction_coefficient", "entry_speed_m_per_s"]
     .filter((key) => ride[key] !== undefined && nominal[key] !== undefined).map((key) => [key, ride[key]]));
   const body = { ...nominal, ...shown };
-  const point = (values) => values.map((v) => number(units.convert("length", v), 5)).join(", ") + NO_BREAK + units.unit("length");
+  const place = units.place(ride.arc_length_m);
+  const point = (values) => values.map(place).join(", ") + NO_BREAK + units.unit("length");
   return list([
     ["Run and drop", `${units.text("length", endpoints.run_m, 5)} and ${units.text("length", endpoints.drop_m, 5)}`],
     ["Start (x, y, z)", point(placement.start_m)],
@@ -116,7 +117,8 @@ function track(doc, units) {
 // Where the origin of the mesh files lies on the site.
 function offsetText(offset, units) {
   if (offset.every((value) => value === 0)) return "none: files are in the site's coordinates";
-  return `${offset.map((value) => number(units.convert("length", value), 9)).join(", ")}${NO_BREAK}${units.unit("length")}`;
+  const finest = 1e-3;  // to a tenth of a micrometre
+  return `${offset.map(units.place(finest)).join(", ")}${NO_BREAK}${units.unit("length")}`;
 }
 
 function mesh({ mesh: facts }, units) {

@@ -58,10 +58,12 @@ export function stationTable(doc, store, units) {
     head.replaceChildren(element("tr", {}, COLUMNS.map(([name, quantity]) =>
       element("th", { scope: "col" }, name, element("span", { class: "unit" }, ` [${units.unit(quantity)}]`)))));
     const shown = rows();
+    const place = units.place(doc.ride.arc_length_m, true);
     const columns = COLUMNS.map(([, quantity, key]) => {
       const values = shown.map((row) => units.convert(quantity, row[key]));
       // Radii of one track differ by orders of magnitude: each has its own digits.
       const text = key === "radius_m" ? (value) => number(value, 5) : columnText(values);
+      if (key === "z_m") return shown.map((row) => place(row[key]));
       return values.map((value) => (value === null ? MISSING[key] ?? "\u2013" : text(value)));
     });
     body.replaceChildren(...shown.map((_, i) =>
@@ -155,10 +157,10 @@ function priceText(limit, units) {
 }
 
 // Of a clearance that the whole solid keeps: which part of it comes closest, and where.
-function closestText(limit, units) {
+function closestText(limit, units, extent) {
   if (!limit.closest) return null;
   const { part, x_m: x, z_m: z } = limit.closest;
-  return element("span", { class: "detail" }, `closest: ${part}, at x = ${units.text("length", x, 4)}, z = ${units.text("length", z, 4)}`);
+  return element("span", { class: "detail" }, `closest: ${part}, at x = ${units.placeText(x, extent)}, z = ${units.placeText(z, extent)}`);
 }
 
 export function limitTable(doc, store, units) {
@@ -168,7 +170,7 @@ export function limitTable(doc, store, units) {
     element("th", { scope: "row" }, element("span", { class: "limit-name" }, limit.name), element("code", { class: "key" }, limit.limit)),
     element("td", {}, boundText(limit, units)),
     element("td", {}, reachedText(limit, units)),
-    element("td", {}, placeText(limit, units), closestText(limit, units)),
+    element("td", {}, placeText(limit, units), closestText(limit, units, doc.ride.arc_length_m)),
     element("td", {}, limit.status),
     element("td", {}, priceText(limit, units)))));
   draw();
