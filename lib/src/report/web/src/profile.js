@@ -218,12 +218,15 @@ class Profile {
   moveBodies(seconds) {
     this.clock = seconds;
     for (const [name, line] of [["track", this.doc.stations], ["straight", this.doc.straight]]) {
+      // A ride that ends before the finish stands still where it ended.
+      const known = line?.time_s.indexOf(null) ?? -1;
+      const times = known >= 0 ? line.time_s.slice(0, known) : line?.time_s;
       const body = this.bodies[name];
-      const show = seconds !== null && line !== null;
+      const show = seconds !== null && line !== null && times.length > 0;
       body.setAttribute("visibility", show ? "visible" : "hidden");
       if (!show) continue;
-      body.setAttribute("cx", this.at.px(interpolate(line.time_s, line.x_m, seconds)));
-      body.setAttribute("cy", this.at.pz(interpolate(line.time_s, line.z_m, seconds)));
+      body.setAttribute("cx", this.at.px(interpolate(times, line.x_m, seconds)));
+      body.setAttribute("cy", this.at.pz(interpolate(times, line.z_m, seconds)));
     }
   }
 
@@ -320,11 +323,16 @@ class Ride {
     this.label = element("output", { class: "clock" });
     this.toggle = button("Let go", () => (this.running ? this.stop() : this.start()), { class: "primary", id: "ride" });
     this.slow = element("input", { type: "checkbox", id: "ride-slow" });
+    this.finished = false;
+    // The times that stand there are those of the friction that is shown.
+    store.on("friction", () => {
+      if (this.finished) this.label.textContent = this.result();
+    });
   }
 
   get duration() {
-    const { ride, straight } = this.doc;
-    return Math.max(ride.travel_time_s ?? 0, straight ? straight.time_s.at(-1) : 0);
+    const { stations, straight } = this.doc;
+    return Math.max(...stations.time_s, straight ? straight.time_s.at(-1) : 0);
   }
 
   controls() {
@@ -333,7 +341,7 @@ class Ride {
 
   result() {
     const { ride, straight } = this.doc;
-    const times = [`this track ${ride.travel_time_s.toFixed(3)}\u00a0s`];
+    const times = [ride.travel_time_s === null ? "on this track the body does not arrive" : `this track ${ride.travel_time_s.toFixed(3)}\u00a0s`];
     const level = (ride.friction ?? "nominal") === "nominal" ? "" : " at nominal friction";
     if (straight) times.push(`straight line${level} ${straight.time_s.at(-1).toFixed(3)}\u00a0s`);
     return times.join(", ");
@@ -341,6 +349,7 @@ class Ride {
 
   start() {
     this.running = true;
+    this.finished = false;
     this.toggle.textContent = "Stop";
     this.seconds = 0;
     this.last = null;
@@ -351,7 +360,8 @@ class Ride {
     this.running = false;
     this.toggle.textContent = "Let go";
     this.profile.moveBodies(null);
-    this.label.textContent = this.seconds > this.duration ? this.result() : "";
+    this.finished = this.seconds > this.duration;
+    this.label.textContent = this.finished ? this.result() : "";
   }
 
   step(now) {
@@ -360,7 +370,8 @@ class Ride {
     this.last = now;
     const clamped = Math.min(this.seconds, this.duration);
     this.profile.moveBodies(clamped);
-    this.store.set("station", stationAt(this.doc.stations.time_s, clamped));
+    const times = this.doc.stations.time_s;
+    this.store.set("station", stationAt(times.includes(null) ? times.slice(0, times.indexOf(null)) : times, clamped));
     this.label.textContent = `${clamped.toFixed(2)} s`;
     if (this.seconds > this.duration + 1.5) this.stop();
     else requestAnimationFrame((next) => this.step(next));
