@@ -2,12 +2,16 @@
 
 #include "glissade/centerline/straight_line.hpp"
 
+#include "report/station_table.hpp"
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -62,6 +66,24 @@ class Chute {
   MeshFacts facts_;
 };
 
+/// Numbers of a packed column.
+std::vector<double> unpacked(const json& column) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  REQUIRE(column["type"] == "f64");
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : column["data"].get<std::string>()) {
+    if (c == '=') break;
+    bits = (bits << 6) | static_cast<unsigned>(digits.find(c));
+    held += 6;
+    if (held >= 8) bytes.push_back(static_cast<char>((bits >> (held -= 8)) & 0xff));
+  }
+  std::vector<double> values(bytes.size() / sizeof(double));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+  return values;
+}
+
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const std::size_t start = text.find(from) + from.size();
   return text.substr(start, text.find(to, start) - start);
@@ -101,6 +123,55 @@ TEST_CASE("report data: every column of the stations has the same length, the en
     CHECK(kinetic + lost == Approx(9.81 * stations["drop_m"][i].get<double>()).epsilon(1e-9).margin(1e-12));
     CHECK(stations["z_m"][i].get<double>() == Approx(10.0 - stations["drop_m"][i].get<double>()));
   }
+}
+
+TEST_CASE("report data: rows of the table of stations are what the motion tells there, at rounded places") {
+  const Chute chute;
+  const json document = json::parse(report_json(chute.input()));
+  const json& table = document["table"];
+  const std::vector<double> places = unpacked(table["arc_length_m"]);
+  const std::vector<double> heights = unpacked(table["z_m"]);
+  const json& ride = document["rides"][0]["table"];
+  const std::vector<double> times = unpacked(ride["time_s"]);
+  const std::vector<double> speeds = unpacked(ride["speed_m_per_s"]);
+  const std::vector<double> loads = unpacked(ride["normal_load_m_per_s2"]);
+  REQUIRE(places.size() == 501);
+  CHECK(table["spacing_m"] == 0.01);
+  CHECK(places[7] == 0.07);
+  CHECK(places.back() == 5.0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const MotionState state = chute.motion().at(places[i]);
+    CHECK(heights[i] == 10.0 - chute.motion().centerline().at(places[i]).drop);
+    CHECK(times[i] == state.time);
+    CHECK(speeds[i] == state.speed);
+    CHECK(loads[i] == state.normal_load);
+  }
+}
+
+TEST_CASE("station table: 200 to 2000 spacings of a power of ten, and the end of the ride once") {
+  for (const double length : {3e-3, 0.2, 0.31622, 1.0, 2.0, 7.54321, 19.999999, 20.0, 1e5}) {
+    const Motion motion(std::make_shared<StraightLine>(Endpoints{0.8 * length, 0.6 * length}),
+                        Body{Friction::from_coefficient(0.1), 0.0, 0.0});
+    const report::StationGrid grid = report::station_grid(motion);
+    INFO(length);
+    CHECK(grid.places.size() > 200);
+    CHECK(grid.places.size() <= 2002);
+    CHECK(grid.places.front() == 0.0);
+    CHECK(grid.places.back() == motion.distance());
+    for (std::size_t i = 1; i < grid.places.size(); ++i)
+      CHECK(grid.places[i] - grid.places[i - 1] > 1e-7 * grid.spacing);
+  }
+}
+
+TEST_CASE("station table: a ride that ends early has no values beyond") {
+  const auto track = std::make_shared<StraightLine>(Endpoints{4.0, 3.0});
+  const Motion whole(track, Body{Friction::from_coefficient(0.3), 0.0, 0.0});
+  const Motion stalled(track, Body{Friction::from_coefficient(0.8), 1.0, 0.0});
+  REQUIRE(stalled.stall());
+  const report::StationGrid grid = report::station_grid(whole);
+  const std::vector<double> speeds = unpacked(report::ride_table(stalled, grid)["speed_m_per_s"]);
+  for (std::size_t i = 0; i < grid.places.size(); ++i)
+    CHECK(std::isnan(speeds[i]) == (grid.places[i] > stalled.distance()));
 }
 
 TEST_CASE("report data: a verdict that nobody reached stays \"not checked\"") {

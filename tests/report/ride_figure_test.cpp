@@ -1,11 +1,15 @@
 #include "glissade/report/ride_figure.hpp"
 
+#include "glissade/centerline/drawn_track.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/motion/laws/rider.hpp"
+#include "glissade/motion/laws/rolling_ball.hpp"
 #include "glissade/report/figure_page.hpp"
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -40,15 +44,35 @@ TEST_CASE("a figure of a ride holds the numbers of the ride") {
   CHECK(profile.lines[0].ys.back() == Approx(-3.0));
 }
 
-TEST_CASE("energies add up to the height lost at every station") {
-  const Motion motion = ride_down(0.3, 0.05);
-  const Figure figure = ride_figure(RideQuantity::energy, {{"straight", &motion}});
-  REQUIRE(figure.lines.size() == 4);
-  for (std::size_t i = 0; i < figure.lines[0].xs.size(); ++i) {
+TEST_CASE(
+    "energies add up to one constant, whatever slides or rolls, spin and height of the centre of mass "
+    "included") {
+  // A crest and a valley between straights: the centre rises and falls against the track.
+  const CenterlinePtr track =
+      joined(Angle::from_degrees(30.0), {ClothoidSegment{1.0, 0.0, 0.0}, ClothoidSegment{1.0, -0.2, -0.2},
+                                         ClothoidSegment{2.0, 0.4, 0.4}, ClothoidSegment{0.5, 0.0, 0.0}});
+  const auto law =
+      GENERATE(as<LawPtr>{}, nullptr, std::make_shared<Rider>(0.5),
+               std::make_shared<RollingBall>(BallShape{0.02, Angle::from_degrees(40.0), {}, {}}));
+  const double drag = GENERATE(0.0, 0.05);
+  const double entry = GENERATE(0.0, 2.0);
+  Body body{Friction::from_coefficient(0.1), entry, drag};
+  body.law = law;
+  const Motion motion(track, body);
+  REQUIRE(motion.arrived());
+  const Figure figure = ride_figure(RideQuantity::energy, {{"track", &motion}});
+  REQUIRE(figure.lines.size() == (drag > 0.0 ? 4 : 3));
+  const auto sum_at = [&](std::size_t i) {
     double sum = 0.0;
     for (const FigureLine& line : figure.lines) sum += line.ys[i];
-    CHECK(sum == Approx(3.0 * kDefaultGravity).epsilon(1e-9));
-  }
+    return sum;
+  };
+  for (std::size_t i = 0; i < figure.lines[0].xs.size(); ++i)
+    CHECK(sum_at(i) == Approx(sum_at(0)).epsilon(1e-9));
+  // The lowest place of the centre is where potential energy is 0; the law's inertia counts in kinetic energy alone.
+  const double inertia = law ? law->inertia() : 1.0;
+  CHECK(figure.lines[1].ys.front() == Approx(0.5 * inertia * entry * entry));
+  CHECK(*std::min_element(figure.lines[0].ys.begin(), figure.lines[0].ys.end()) == 0.0);
 }
 
 TEST_CASE("a figure shows the whole track of a body that stalls, and its ride as far as it came") {

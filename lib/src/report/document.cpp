@@ -3,6 +3,7 @@
 #include "glissade/core/version.hpp"
 #include "glissade/trades/chute/stream.hpp"
 
+#include "report/body_energy.hpp"
 #include "report/parts_view.hpp"
 #include "report/ride_stations.hpp"
 #include "report/serial/packed.hpp"
@@ -10,6 +11,7 @@
 #include "report/serial/pattern.hpp"
 #include "report/serial/stream.hpp"
 #include "report/serial/vocabulary.hpp"
+#include "report/station_table.hpp"
 #include "report/view_mesh.hpp"
 
 #include <algorithm>
@@ -189,6 +191,7 @@ Json rides_of(const ReportInput& input) {
           ? std::vector<ReportRide>{{FrictionLevel::nominal, input.motion, input.checks, input.flights}}
           : input.rides;
   const std::vector<double> stations = ride_stations(*input.motion);
+  const StationGrid grid = station_grid(*input.motion);
   Json list = Json::array();
   for (const ReportRide& ride : rides) {
     list.push_back(ride_json(ride.level, *ride.motion, input.stall_angle));
@@ -197,6 +200,7 @@ Json rides_of(const ReportInput& input) {
     list.back()["checks"] = checks_of(ride.checks);
     list.back()["flights"] = flights_of(ride.flights);
     list.back()["stations"] = ride_columns(*ride.motion, stations);
+    list.back()["table"] = ride_table(*ride.motion, grid);
   }
   return list;
 }
@@ -378,6 +382,17 @@ Json what_if_of(const ReportInput& input) {
   return list;
 }
 
+/// The body of the ride: with a feed its entry speed follows from the track.
+Json ridden_body(const ReportInput& input) {
+  const BodyEnergy energy(*input.motion);
+  Json body;
+  add_body(body, *input.design);
+  body["entry_speed_m_per_s"] = input.motion->body().entry_speed;
+  body["inertia_factor"] = energy.inertia();
+  body["centre_height_m"] = energy.centre_height();
+  return body;
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_document(const ReportInput& input) {
@@ -396,9 +411,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
                            {"finish_m", position_json(finish_of(input))},
                            {"azimuth_deg", input.placement.azimuth().degrees()}};
   document["endpoints"] = {{"run_m", input.endpoints.run}, {"drop_m", input.endpoints.drop}};
-  add_body(document["body"], design);
-  // With a feed it follows from the track.
-  document["body"]["entry_speed_m_per_s"] = input.motion->body().entry_speed;
+  document["body"] = ridden_body(input);
   document["ride"] = ride_facts(input);
   document["rides"] = rides_of(input);
   document["probes"] = probes_json(input.probes);
@@ -416,6 +429,7 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
   document["mesh"] = mesh_of(input);
   document["files"] = files_of(input);
   document["stations"] = ride_line(*input.motion, height);
+  document["table"] = track_table(*input.motion, station_grid(*input.motion), height);
   document["straight"] = input.straight ? ride_line(*input.straight, height) : Json(nullptr);
   document["optimum"] = input.optimum ? ride_line(*input.optimum, height) : Json(nullptr);
   document["view"] = view_of(input);

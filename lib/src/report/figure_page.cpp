@@ -31,6 +31,15 @@ constexpr const char* kStyle =
     "figure svg{display:block;width:100%;height:auto}"
     ".scroll{overflow-x:auto;margin:16px 0;background:var(--panel);border:1px solid var(--grid);"
     "border-radius:8px;padding:8px}"
+    // That a table goes on beyond its room: while it scrolls, where a browser can tell without a script; else on what is
+    // narrower than any comparison.
+    ".wide{timeline-scope:--across}.wide .scroll{scroll-timeline:--across x}.more{display:none;margin:16px 0 "
+    "0}"
+    "@media screen and (max-width:760px){.more{display:block}}"
+    "@supports (animation-timeline:--across){@media "
+    "screen{.more{display:block;max-height:0;margin:0;overflow:hidden;"
+    "animation:more linear both;animation-timeline:--across}}}"
+    "@keyframes more{0%,100%{max-height:4em;margin-top:16px}}"
     "table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums}"
     "th,td{padding:5px 10px;border-bottom:1px solid var(--grid);text-align:right;white-space:nowrap}"
     "thead th{white-space:normal;vertical-align:bottom}"
@@ -70,14 +79,17 @@ std::string row_of(const std::vector<std::string>& cells, std::size_t columns, s
 
 std::string table_of(const PageTable& table, bool chosen) {
   std::string text =
-      R"(<div class="scroll" tabindex="0" role="region" aria-label="Comparison"><table><thead><tr>)";
+      "<div class=\"wide\"><p class=\"more\" aria-hidden=\"true\">The table goes on to the right: swipe or "
+      "scroll "
+      "\u2192</p>\n";
+  text += R"(<div class="scroll" tabindex="0" role="region" aria-label="Comparison"><table><thead><tr>)";
   for (const std::string& heading : table.headings) {
     text += "<th scope=\"col\">" + escaped_markup(heading) + "</th>";
   }
   text += "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     text += row_of(table.rows[i], table.headings.size(), chosen ? i + 1 : 0);
-  return text + "</tbody></table></div>\n";
+  return text + "</tbody></table></div></div>\n";
 }
 
 constexpr const char* kChoiceStyle =

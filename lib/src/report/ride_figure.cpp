@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/units.hpp"
 
+#include "report/body_energy.hpp"
 #include "report/ride_stations.hpp"
 
 #include <algorithm>
@@ -63,23 +64,15 @@ void interrupt_steep_start(FigureLine& line) {
   }
 }
 
-double lowest_point(const Motion& motion) {
-  double lowest = 0.0;
-  for (const double s : ride_stations(motion)) lowest = std::max(lowest, motion.centerline().at(s).drop);
-  return lowest;
-}
-
 void add_energies(Figure& figure, const FigureRide& ride, bool named) {
   const Motion& motion = *ride.motion;
-  const double lowest = lowest_point(motion);
+  const BodyEnergy energy(motion);
   const std::string prefix = named ? ride.name + ": " : "";
   const auto add = [&](const std::string& name, const OfState& y) {
     figure.lines.push_back(ride_line(ride, prefix + name, y));
   };
-  add("potential", [&motion, lowest](const MotionState& state) {
-    return motion.gravity() * (lowest - motion.centerline().at(state.arc_length).drop);
-  });
-  add("kinetic", [](const MotionState& state) { return 0.5 * state.speed * state.speed; });
+  add("potential", [&energy](const MotionState& state) { return energy.potential(state); });
+  add("kinetic", [&energy](const MotionState& state) { return energy.kinetic(state); });
   add("lost to friction", [](const MotionState& state) { return state.friction_loss; });
   if (motion.body().drag_per_metre > 0.0) {
     add("lost to drag", [](const MotionState& state) { return state.drag_loss; });

@@ -387,6 +387,180 @@ export: [stl]
   });
 });
 
+describe("a body that is no point, on a site far from its origin, over a range of friction", () => {
+  const design = `glissade: 1
+name: Site
+track:
+  start: {x: 3456789.12 m, y: 5432100.55 m, z: 2853.35 m}
+  finish: {x: 3456791.62 m, y: 5432100.55 m, z: 2850.85 m}
+body:
+  friction_angle: {low: 14 deg, nominal: 17 deg, high: 20 deg}
+  centre_height: 300 mm
+  head_wind: 3 m/s
+  drag: 0.01 1/m
+  entry_speed: 0.5 m/s
+probes: [{name: a, from_start: 10 mm}, {name: b, from_start: 70 mm}, {name: c, from_start: 1.23 m}]
+centerline: {kind: fastest}
+limits:
+  smallest_radius: 1 m
+  keep_outs:
+    - {outline: [[3456789.82 m, 2853 m], [3456790.12 m, 2853 m], [3456790.12 m, 2853.3 m], [3456789.82 m, 2853.3 m]], clearance: 50 mm}
+cross_section: {kind: slab, width: 400 mm, thickness: 50 mm}
+mesh: {tolerance: 20 mm}
+export: [stl]
+`;
+  let page;
+  let complaints;
+  let json;
+  before(async () => {
+    const file = path.join(work, "site.yaml");
+    writeFileSync(file, design);
+    const built = build(file);
+    json = built.json;
+    ({ page, complaints } = await open(plain, built.file, SMALL));
+  });
+  after(() => page.close());
+  const choose = (label, value) => page.locator("header label", { hasText: label }).locator("select").selectOption(value);
+
+  test("its task says what makes it ride as it does", async () => {
+    const task = await page.locator("#summary").textContent();
+    for (const text of ["Centre of mass0.3\u00a0m above the track", "Head wind3\u00a0m/s", "Drag0.01\u00a01/m"]) assert.ok(task.includes(text), text);
+  });
+
+  test("places are told to the millimetre and ticks apart, in every unit and at every zoom", async () => {
+    for (const [units, factor] of [["m, m/s", 1], ["mm, m/s", 1000]]) {
+      await choose("Units", units);
+      const text = await page.locator("#summary").textContent();
+      for (const place of [[3456789.12, 5432100.55, 2853.35], [3456791.62, 5432100.55, 2850.85]]) {
+        const wanted = place.map((value) => String(Number((factor * value).toFixed(2)))).join(", ");
+        assert.ok(text.includes(wanted), `${wanted} in ${text}`);
+      }
+      const z = await page.locator("#stations tbody tr").evaluateAll((rows) => rows.map((row) => Number(row.cells[2].textContent)));
+      assert.ok(Math.abs(z.at(-1) - factor * 2850.85) < 1e-3 * factor && z.every((value, i) => value !== z[i - 1]), z.join(" "));
+      for (let zoom = 0; zoom < 12; zoom += 1) {
+        const axes = await page.evaluate(() => {
+          const labels = [...document.querySelectorAll("svg.profile text.tick")].map((tick) => [tick.getAttribute("text-anchor"), tick.textContent, tick.getBoundingClientRect().left]);
+          const left = document.querySelector("svg.profile").getBoundingClientRect().left;
+          return { labels, left };
+        });
+        for (const anchor of ["middle", "end"]) {
+          const values = axes.labels.filter(([own]) => own === anchor).map(([, text]) => Number(text));
+          const steps = values.slice(1).map((value, i) => value - values[i]);
+          const mean = (values.at(-1) - values[0]) / steps.length;
+          steps.forEach((step) => assert.ok(mean > 0 && Math.abs(step - mean) < 1e-3 * mean, `${units}, zoom ${zoom}: ticks ${values.join(" ")}`));
+        }
+        axes.labels.forEach(([, text, at]) => assert.ok(at >= axes.left, `${text} sticks out`));
+        await page.getByRole("button", { name: "Zoom in" }).click();
+      }
+      await page.getByRole("button", { name: "Whole track" }).first().click();
+    }
+    await choose("Units", "m, m/s");
+    const { closest } = json.limits.find((limit) => limit.closest);
+    const told = await page.locator("#limits .detail", { hasText: "closest" }).first().textContent();
+    const [, x, z] = /x = (\S+)\u00a0m, z = (\S+)\u00a0m$/.exec(told).map(Number);
+    assert.ok(Math.abs(x - closest.x_m) < 5e-4 && Math.abs(z - closest.z_m) < 5e-4, `${told} for ${closest.x_m}, ${closest.z_m}`);
+    assert.deepEqual(complaints, []);
+  });
+
+  test("its stations are what the motion tells there, to the last digit, at each friction", async () => {
+    for (const level of ["low", "high", "nominal"]) {
+      await choose("Friction", level);
+      await page.getByLabel("Spacing").selectOption("1");
+      const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "CSV" }).click()]);
+      const rows = readFileSync(await download.path(), "utf8").trim().split("\n").slice(1).map((line) => line.split(",").map(Number));
+      for (const probe of json.probes) {
+        const row = rows.find(([s]) => s === probe.arc_length_m);
+        assert.ok(row, `a row at ${probe.arc_length_m}`);
+        const state = probe.states.find(({ friction }) => friction === level);
+        for (const [value, wanted] of [[row[1], probe.x_m], [row[3], probe.slope_angle_deg], [row[4], probe.curvature_per_m], [row[6], state.speed_m_per_s], [row[7], state.time_s], [row[8], state.normal_load_m_per_s2 / 9.80665]]) {
+          assert.ok(Math.abs(value - wanted) <= 1e-11 * Math.abs(wanted), `${level}, s = ${row[0]}: ${value} for ${wanted}`);
+        }
+      }
+    }
+  });
+
+  test("its energies add up at each friction", async () => {
+    for (const level of ["low", "high", "nominal"]) {
+      await choose("Friction", level);
+      const parts = await page.evaluate(() => window.glissadeReport.charts.find(({ chart }) => chart.id === "energy").plot.data.slice(1));
+      const sums = parts[0].map((_, i) => parts.reduce((sum, part) => sum + part[i], 0));
+      sums.forEach((sum) => assert.ok(Math.abs(sum - sums[0]) < 1e-8 * sums[0], `${level}: ${sum} against ${sums[0]}`));
+    }
+  });
+});
+
+describe("a rolling ball", () => {
+  const design = `glissade: 1
+name: Ball
+track: {start: {x: 0 m, z: 120 mm}, finish: {x: 200 mm, z: 0 m}}
+body: {kind: rolling, radius: 8 mm, rolling_resistance: {low: 0.005, nominal: 0.01, high: 0.02}}
+centerline: {kind: straight}
+cross_section: {kind: u-channel, width: 20 mm, wall_height: 10 mm, thickness: 2 mm}
+export: [stl]
+`;
+  test("follows the switch in task, energies and the times of a ride that was let go", async () => {
+    const file = path.join(work, "ball.yaml");
+    writeFileSync(file, design);
+    const { file: report, json } = build(file);
+    const { page, complaints } = await open(plain, report, SMALL);
+    await page.locator("#ride").click();
+    await page.waitForFunction(() => document.querySelector(".clock").textContent.startsWith("this track"));
+    for (const level of ["nominal", "low", "high"]) {
+      await page.locator("header select").first().selectOption(level);
+      const ride = json.rides.find(({ friction }) => friction === level);
+      assert.ok((await page.locator(".clock").textContent()).startsWith(`this track ${ride.travel_time_s.toFixed(3)}\u00a0s`), level);
+      assert.match(await page.locator("#summary").textContent(), new RegExp(`rolling resistance ${ride.friction_coefficient}(?!\\d)`));
+      const parts = await page.evaluate(() => window.glissadeReport.charts.find(({ chart }) => chart.id === "energy").plot.data.slice(1));
+      // From rest to the lowest place: all that there was is spin, motion and what was lost, 7/10 u^2 of a ball on a flat floor.
+      assert.ok(Math.abs(parts[1].at(-1) - 0.7 * ride.exit_speed_m_per_s ** 2) < 1e-9);
+      parts[0].forEach((_, i) => assert.ok(Math.abs(parts.reduce((sum, part) => sum + part[i], 0) - parts[0][0]) < 1e-9 * parts[0][0]));
+    }
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
+describe("friction along the track", () => {
+  test("is told as far as the track goes", async () => {
+    const file = path.join(work, "mats.yaml");
+    writeFileSync(file, `glissade: 1
+name: Mats
+track: {start: {x: 0 m, z: 4 m}, finish: {x: 10 m, z: 0 m}}
+body: {friction: [{from: 0 m, angle: 4 deg}, {from: 8 m, coefficient: 0.5}, {from: 80 m, coefficient: 0.9}], entry_speed: 1 m/s}
+centerline: {kind: straight}
+cross_section: {kind: slab, width: 400 mm, thickness: 50 mm}
+mesh: {tolerance: 20 mm}
+export: [stl]
+`);
+    const { page } = await open(plain, build(file).file, SMALL);
+    assert.match(await page.locator("#summary").textContent(), /4\u00a0deg \(coefficient 0\.06993\); from s = 8\u00a0m on 26\.57\u00a0deg \(coefficient 0\.5\)Entry/);
+    await page.close();
+  });
+});
+
+describe("gates", () => {
+  test("save their charts as drawings and pictures", async () => {
+    const { page, complaints } = await open(plain, build(path.join(designs, "hills/kulm_hs235.yaml")).file, SMALL);
+    for (const chart of ["Speed at the measuring place", "Highest normal load"]) {
+      for (const format of ["SVG", "PNG"]) {
+        const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: `Save gates ${chart} as ${format}`, exact: true }).click()]);
+        const bytes = readFileSync(await download.path());
+        if (format === "SVG") {
+          const text = bytes.toString();
+          assert.match(text, /^<svg[^>]* width="640"[\s\S]*<polyline[\s\S]*<\/svg>$/);
+          assert.ok(text.includes(`: ${chart.toLowerCase()}`) && text.includes("gate, from the lowest"));
+          assert.ok(!/color\(|color-mix|var\(|rgba\(/.test(text.replaceAll(/ (?:fill|stroke)="var\([^)]*\)"/g, "")));
+        } else {
+          assert.equal(bytes.subarray(1, 4).toString(), "PNG");
+          assert.equal(bytes.readUInt32BE(16), 1280);
+        }
+      }
+    }
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+});
+
 describe("a stream", () => {
   let page;
   let complaints;
@@ -415,6 +589,39 @@ describe("a stream", () => {
     for (const place of places) {
       assert.ok(metres.includes(`s = ${Number(place) / 1000}\u00a0m`), `${place} mm in ${metres.join(" | ")}`);
     }
+  });
+
+  test("shows the ride that the sliders say, and the switch moves them", async () => {
+    const state = () => page.evaluate(() => {
+      const { store, document: doc } = window.glissadeReport;
+      const slider = document.querySelector("#what-if input[aria-label='Wall friction']");
+      return {
+        slider: slider.getAttribute("aria-valuetext"), told: document.querySelector("#what-if-facts").textContent, other: store.get("whatIf")?.friction_angle_deg ?? null,
+        shown: doc.ride.friction_angle_deg ?? doc.body.friction_angle_deg, exit: doc.ride.exit_speed_m_per_s, stream: document.querySelector("svg.profile polygon.stream").getAttribute("points"),
+      };
+    });
+    const streams = {};
+    for (const level of ["low", "high", "nominal"]) {
+      await page.locator("header select").first().selectOption(level);
+      const now = await state();
+      streams[level] = now.stream;
+      assert.equal(now.other, null, "the page's own ride");
+      assert.ok(Math.abs(Number.parseFloat(now.slider) - now.shown) < 0.06, `${now.slider} for ${now.shown}`);
+      assert.ok(now.told.includes(`Exit speed${Number(now.exit.toPrecision(4))}\u00a0m/s`), now.told);
+    }
+    await page.locator("header select").first().selectOption("high");
+    const slider = page.getByLabel("Wall friction");
+    const middle = await page.evaluate(() => {
+      const { document: doc } = window.glissadeReport;
+      return [...new Set(doc.what_if.map((ride) => ride.friction_angle_deg))].indexOf(doc.what_if.find((ride) => ride.nominal).friction_angle_deg);
+    });
+    await slider.fill(String(middle));
+    const back = await state();
+    assert.ok(back.other !== null && back.other < back.shown, "the profile has the stream of the slider, not that of the switch");
+    assert.ok(![streams.high, streams.low].includes(back.stream));
+    await page.locator("header select").first().selectOption("nominal");
+    assert.equal((await state()).stream, streams.nominal);
+    assert.deepEqual(complaints, []);
   });
 
   test("prints no heading without what it heads", async () => {
@@ -454,6 +661,13 @@ describe("a comparison", () => {
       await page.setViewportSize({ width, height: 900 });
       const [content, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
       assert.ok(content <= room, `${content} px of content in ${room}`);
+      // A table that goes on beyond its room says so, one that does not says nothing.
+      const [goesOn, height] = await page.evaluate(() => {
+        const holder = document.querySelector(".scroll");
+        return [holder.scrollWidth > holder.clientWidth, document.querySelector(".more").getBoundingClientRect().height];
+      });
+      assert.equal(goesOn, width === 390);
+      assert.equal(height > 10, goesOn, `a remark ${height} px high at ${width}`);
     }
     assert.equal(await page.locator("figure").count(), 4);
     assert.deepEqual(complaints, []);

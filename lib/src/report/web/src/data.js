@@ -19,7 +19,7 @@ export function radiusOf(stations) {
   return stations.curvature_per_m.map((k) => (k === null ? 0 : Math.abs(k) < straight ? null : 1 / Math.abs(k)));
 }
 
-const BYTES = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array };
+const BYTES = { u8: Uint8Array, u16: Uint16Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array };
 
 // Arrays of the 3-D views travel as {type, data}: little-endian numbers in base64.
 export function decodeArray({ type, data }) {

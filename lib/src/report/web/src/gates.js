@@ -1,7 +1,7 @@
 // Start gates of a ski jump: speed and load against the gate, and the table.
 import { element, scrollable, section, svgElement } from "./dom.js";
 import { exportButtons, standAlone } from "./export.js";
-import { columnText, number } from "./units.js";
+import { columnText, number, tickTexts } from "./units.js";
 
 const COLOURS = ["--series-1", "--series-3", "--series-2"];
 const SIZE = { width: 640, height: 260, left: 64, right: 16, top: 26, bottom: 44 };
@@ -36,10 +36,12 @@ function drawn(doc, units, [title, quantity, key]) {
   const y = (value) => SIZE.height - SIZE.bottom - ((value - low) / (high - low)) * (SIZE.height - SIZE.top - SIZE.bottom);
   const text = (attributes, words) => svgElement("text", { "font-size": 12, "font-family": "system-ui, sans-serif", fill: "var(--ink-soft)", ...attributes }, words);
   const line = (ends) => svgElement("line", { stroke: "var(--grid)", ...ends });
+  const heights = steps(low, high, 5);
+  const heightTexts = tickTexts(heights);
   const bottom = SIZE.height - SIZE.bottom;
   return svgElement("svg", { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, role: "img", "aria-label": `${title} against the gate`, class: "gates-plot" },
-    steps(low, high, 5).map((value) => [line({ x1: SIZE.left, x2: SIZE.width - SIZE.right, y1: y(value), y2: y(value) }),
-      text({ x: SIZE.left - 6, y: y(value) + 4, "text-anchor": "end" }, number(value, 4))]),
+    heights.map((value, i) => [line({ x1: SIZE.left, x2: SIZE.width - SIZE.right, y1: y(value), y2: y(value) }),
+      text({ x: SIZE.left - 6, y: y(value) + 4, "text-anchor": "end" }, heightTexts[i])]),
     steps(first, last, 12).filter(Number.isInteger).map((gate) => [line({ x1: x(gate), x2: x(gate), y1: SIZE.top, y2: bottom }),
       text({ x: x(gate), y: bottom + 16, "text-anchor": "middle" }, String(gate))]),
     curves.map((curve, i) => [
@@ -61,6 +63,7 @@ const PER_CONDITION = [
 
 function table(doc, units) {
   const { list, conditions } = doc.gates;
+  const place = units.place(doc.ride.arc_length_m, true);
   const columns = [
     ["To the edge", "length", list.map((gate) => gate.distance_to_edge_m)],
     ["z", "length", list.map((gate) => gate.z_m)],
@@ -70,8 +73,8 @@ function table(doc, units) {
     ])),
   ].map(([head, quantity, values]) => {
     const shown = values.map((value) => units.convert(quantity, value));
-    const text = columnText(shown, 4);
-    return [head, units.unit(quantity), shown.map((value) => (value === null ? "\u2013" : text(value)))];
+    const text = head === "z" ? (_, i) => place(values[i]) : columnText(shown, 4);
+    return [head, units.unit(quantity), shown.map((value, i) => (value === null ? "\u2013" : text(value, i)))];
   });
   return scrollable("Table of gates", element("table", { class: "gates stations" },
     element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "Gate"), columns.map(([head, unit]) =>
@@ -88,7 +91,7 @@ export function gatesSection(doc, store, units) {
     const charts = CHARTS.map((chart) => [chart[0], drawn(doc, units, chart)]).filter(([, svg]) => svg !== null);
     holder.replaceChildren(element("div", { class: "charts gates-charts" }, ...charts.map(([title, svg]) => element("figure", { class: "chart" },
       element("figcaption", {}, element("span", { class: "chart-title" }, title),
-        element("span", { class: "exports" }, exportButtons(doc.design.stem, `gates ${title}`, () => ({ svg: standAlone(svg), width: SIZE.width, height: SIZE.height })))), svg))),
+        element("span", { class: "exports" }, exportButtons(doc.design.stem, `gates ${title}`, () => standAlone(svg, { title: `${doc.design.name}: ${title.toLowerCase()}`, legend: [] })))), svg))),
     ...[table(doc, units)].flat());
   };
   const hint = element("p", { class: "hint" });

@@ -2,7 +2,7 @@ import uPlot from "uplot";
 import { radiusOf } from "./data.js";
 import { button, element, section, select, svgElement, themeColour } from "./dom.js";
 import { exportButtons } from "./export.js";
-import { columnText, number } from "./units.js";
+import { columnText, tickTexts } from "./units.js";
 
 const SYNC = "glissade";
 const HEIGHT = 220;
@@ -15,13 +15,19 @@ const AXES = {
   time_s: ["time", "time"],
 };
 
+// Of the motion of the centre of mass and of the spin; with what is lost and the potential energy of the centre it sums to one
+// constant at every station (docs/theory.md, M3). None from where the ride ends.
+const kineticEnergies = ({ stations, body }) =>
+  stations.speed_m_per_s.map((speed) => (speed === null ? null : 0.5 * body.inertia_factor * speed * speed));
+
 function energies(doc) {
   const { stations, body } = doc;
-  const total = doc.body.gravity_m_per_s2;
-  const lowest = Math.max(...stations.drop_m);
+  const rise = (station) => Math.cos((stations.slope_angle_deg[station] * Math.PI) / 180);
+  const drops = stations.drop_m.map((drop, i) => drop - body.centre_height_m * (rise(i) - rise(0)));
+  const lowest = Math.max(...drops);
   return {
-    potential: stations.drop_m.map((drop) => total * (lowest - drop)),
-    kinetic: stations.speed_m_per_s.map((speed) => 0.5 * speed * speed),
+    potential: drops.map((drop) => body.gravity_m_per_s2 * (lowest - drop)),
+    kinetic: kineticEnergies(doc),
     friction: stations.friction_loss_j_per_kg,
     drag: stations.drag_loss_j_per_kg,
     hasDrag: body.drag_per_m > 0,
@@ -146,7 +152,9 @@ class Chart {
     const scale = this.store.get("paper") ? PAPER.scale : 1;
     const width = this.store.get("paper") ? PAPER.width : Math.max(this.holder.clientWidth, 200);
     const font = `${12 * scale}px system-ui, sans-serif`;
-    const tick = (_, values) => values.map((v) => (v === null ? "" : number(v, 4)));
+    const tick = (_, values) => tickTexts(values);
+    // A range far from zero has many digits: the axis makes room for them.
+    const room = (_, texts) => Math.max(60, 18 + 7 * Math.max(...(texts ?? []).map((text) => text.length), 0)) * scale;
     const bounds = chart.range?.(chart.series.flatMap(([, column]) => column))?.map((v) => units.convert(chart.quantity, v));
     this.plot = new uPlot({
       width: width * scale,
@@ -156,7 +164,7 @@ class Chart {
       scales: { x: { time: false }, y: bounds ? { range: () => bounds } : {} },
       axes: [
         { label: `${axisName} [${units.unit(axisQuantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 44 * scale, labelSize: 26 * scale, gap: 5 * scale },
-        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: 60 * scale, labelSize: 24 * scale, gap: 5 * scale },
+        { label: `[${units.unit(chart.quantity)}]`, labelFont: font, font, stroke: ink, grid, ticks: grid, values: tick, size: room, labelSize: 24 * scale, gap: 5 * scale },
       ],
       series: [{}, ...chart.series.map(([name, , colour, band]) => ({
         label: name, stroke: themeColour(colour) + (band ? "80" : ""), width: (band ? 1 : 2) * scale, points: { show: false },
@@ -291,7 +299,9 @@ function readout(doc, store, units) {
   ];
   let texts = [];
   const measure = () => {
+    const place = units.place(doc.ride.arc_length_m, true);
     texts = fields.map(([, quantity, key]) => {
+      if (key === "z_m") return (value) => `${place(value)}\u00a0${units.unit(quantity)}`;
       const text = columnText(stations[key].map((v) => units.convert(quantity, v)), 5);
       return (value) => (value === null ? units.missing(quantity) : `${text(units.convert(quantity, value))}\u00a0${units.unit(quantity)}`);
     });
@@ -336,8 +346,8 @@ export function plotSection(doc, store, units, rides) {
   for (const key of ["axis", "units", "theme", "paper"]) store.on(key, redraw);
   store.on("friction", () => {
     const kinetic = list.find((chart) => chart.id === "energy").series[1][1];
-    doc.stations.speed_m_per_s.forEach((speed, i) => {
-      kinetic[i] = 0.5 * speed * speed;
+    kineticEnergies(doc).forEach((energy, i) => {
+      kinetic[i] = energy;
     });
     redraw();
   });
@@ -347,7 +357,7 @@ export function plotSection(doc, store, units, rides) {
       button("Whole track", () => all.forEach((chart) => chart.resetZoom()))),
     readout(doc, store, units),
     element("p", { class: "hint" }, "Drag across a plot to zoom, double-click to see all. Keys, once a plot is selected: arrows move the cursor, + and \u2212 zoom, 0 shows all. "
-      + "Potential energy counts from the lowest point of the track. Where curvature or load are unbounded, their axes end before; that of the radius ends at twice the length of the track."),
+      + "Potential energy is that of the centre of mass and counts from its lowest place, kinetic energy includes the spin of what rolls. Where curvature or load are unbounded, their axes end before; that of the radius ends at twice the length of the track."),
     element("div", { class: "charts" }, all.map((chart) => chart.node)));
   return { node, draw: redraw, charts: all };
 }

@@ -1,10 +1,11 @@
 import { button, element, section, svgElement } from "./dom.js";
 import { interpolate, stationAt } from "./data.js";
 import { exportButtons, standAlone } from "./export.js";
-import { number } from "./units.js";
+import { number, tickTexts } from "./units.js";
 
 const PAPER_WIDTH = 686;  // A4 between its margins, in CSS pixels
 const LEAST_HEIGHTS = 3;  // ticks along the height
+const DIGIT_WIDTH = 7;  // of a tick's label, in CSS pixels
 const MARGIN = { left: 62, right: 18, top: 14, bottom: 44 };
 
 function niceStep(span, count) {
@@ -65,18 +66,18 @@ class Profile {
     return { x0: x0 - pad, x1: x1 + pad, z0: z0 - pad, z1: z1 + pad };
   }
 
-  layout() {
+  layout(left) {
     const paper = this.store.get("paper");
     const width = paper ? PAPER_WIDTH : Math.max(this.svg.parentElement?.clientWidth ?? 0, 260);
-    const inner = width - MARGIN.left - MARGIN.right;
+    const inner = width - left - MARGIN.right;
     const spanX = this.view.x1 - this.view.x0;
     const spanZ = this.view.z1 - this.view.z0;
     const height = Math.min(Math.max((inner * spanZ) / spanX, 160), paper ? 380 : 560);
     const scale = Math.min(inner / spanX, height / spanZ);
     const offset = (inner - scale * spanX) / 2;
     return {
-      width, height: height + MARGIN.top + MARGIN.bottom, scale,
-      px: (x) => MARGIN.left + offset + scale * (x - this.view.x0),
+      left, width, height: height + MARGIN.top + MARGIN.bottom, scale,
+      px: (x) => left + offset + scale * (x - this.view.x0),
       pz: (z) => MARGIN.top + scale * (this.view.z1 - z) + (height - scale * spanZ) / 2,
       inner, plotHeight: height,
     };
@@ -131,14 +132,14 @@ class Profile {
       svgElement("title", {}, "the stream, as deep as it is")), ...nodes];
   }
 
+  // The nodes of the axes, and what room they need on the left: heights far above zero have many digits.
   axes() {
     const { units, at } = this;
     const unit = units.unit("length");
     const nodes = [];
-    const right = MARGIN.left + at.inner;
+    const right = at.left + at.inner;
     const bottom = MARGIN.top + at.plotHeight;
     const step = niceStep(Math.max(at.inner, at.plotHeight) / at.scale, Math.max(Math.max(at.inner, at.plotHeight) / 75, 4));
-    const label = (value) => number(units.convert("length", value), 4);
     const multiples = (low, high, by) => {
       const first = Math.ceil(low / by);
       return Array.from({ length: Math.max(Math.floor(high / by) - first + 1, 0) }, (_, i) => (first + i) * by);
@@ -147,26 +148,36 @@ class Profile {
     // A flat track has few heights at the step of its run: it gets a finer one, as a reader must tell heights too.
     const finer = multiples(lowest, highest, step).length < LEAST_HEIGHTS;
     const stepZ = finer ? niceStep(at.plotHeight / at.scale, at.plotHeight / 34) : step;
-    for (const k of multiples((MARGIN.left - at.px(0)) / at.scale, (right - at.px(0)) / at.scale, step)) {
+    const labels = (places) => tickTexts(places.map((place) => units.convert("length", place)));
+    const runs = multiples((at.left - at.px(0)) / at.scale, (right - at.px(0)) / at.scale, step);
+    const runLabels = labels(runs);
+    for (const [i, k] of runs.entries()) {
       const x = at.px(k);
       nodes.push(svgElement("line", { class: "grid", x1: x, x2: x, y1: MARGIN.top, y2: bottom }),
-        svgElement("text", { class: "tick", x, y: bottom + 16, "text-anchor": "middle" }, label(k)));
+        svgElement("text", { class: "tick", x, y: bottom + 16, "text-anchor": "middle" }, runLabels[i]));
     }
-    for (const k of multiples(lowest, highest, stepZ)) {
+    const heights = multiples(lowest, highest, stepZ);
+    const heightLabels = labels(heights);
+    for (const [i, k] of heights.entries()) {
       const y = at.pz(k);
-      nodes.push(svgElement("line", { class: "grid", x1: MARGIN.left, x2: right, y1: y, y2: y }),
-        svgElement("text", { class: "tick", x: MARGIN.left - 8, y: y + 4, "text-anchor": "end" }, label(k)));
+      nodes.push(svgElement("line", { class: "grid", x1: at.left, x2: right, y1: y, y2: y }),
+        svgElement("text", { class: "tick", x: at.left - 8, y: y + 4, "text-anchor": "end" }, heightLabels[i]));
     }
     nodes.push(
-      svgElement("text", { class: "axis", x: (MARGIN.left + right) / 2, y: bottom + 36, "text-anchor": "middle" }, `run x [${unit}]`),
+      svgElement("text", { class: "axis", x: (at.left + right) / 2, y: bottom + 36, "text-anchor": "middle" }, `run x [${unit}]`),
       svgElement("text", { class: "axis", transform: `translate(14 ${(MARGIN.top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, `height z [${unit}]`));
-    return nodes;
+    return { nodes, room: 30 + DIGIT_WIDTH * Math.max(...heightLabels.map((text) => text.length), 0) };
   }
 
   draw() {
-    this.at = this.layout();
+    this.at = this.layout(MARGIN.left);
+    let axes = this.axes();
+    if (axes.room > MARGIN.left) {
+      this.at = this.layout(axes.room);
+      axes = this.axes();
+    }
     const { at, doc } = this;
-    const frame = { x: MARGIN.left, y: MARGIN.top, width: at.inner, height: at.plotHeight };
+    const frame = { x: at.left, y: MARGIN.top, width: at.inner, height: at.plotHeight };
     this.marker = svgElement("circle", { class: "cursor", r: 5, "data-screen-only": true });
     this.bodies = {
       track: svgElement("circle", { class: "body body-track", r: 7, visibility: "hidden", "data-screen-only": true }),
@@ -190,7 +201,7 @@ class Profile {
     this.svg.setAttribute("viewBox", `0 0 ${at.width} ${at.height}`);
     this.svg.setAttribute("width", at.width);
     this.svg.setAttribute("height", at.height);
-    this.svg.replaceChildren(clip, ...this.axes(), svgElement("rect", { class: "frame", ...frame }), curves);
+    this.svg.replaceChildren(clip, ...axes.nodes, svgElement("rect", { class: "frame", ...frame }), curves);
     this.moveCursor();
     this.moveBodies(this.clock ?? null);
   }
@@ -207,12 +218,15 @@ class Profile {
   moveBodies(seconds) {
     this.clock = seconds;
     for (const [name, line] of [["track", this.doc.stations], ["straight", this.doc.straight]]) {
+      // A ride that ends before the finish stands still where it ended.
+      const known = line?.time_s.indexOf(null) ?? -1;
+      const times = known >= 0 ? line.time_s.slice(0, known) : line?.time_s;
       const body = this.bodies[name];
-      const show = seconds !== null && line !== null;
+      const show = seconds !== null && line !== null && times.length > 0;
       body.setAttribute("visibility", show ? "visible" : "hidden");
       if (!show) continue;
-      body.setAttribute("cx", this.at.px(interpolate(line.time_s, line.x_m, seconds)));
-      body.setAttribute("cy", this.at.pz(interpolate(line.time_s, line.z_m, seconds)));
+      body.setAttribute("cx", this.at.px(interpolate(times, line.x_m, seconds)));
+      body.setAttribute("cy", this.at.pz(interpolate(times, line.z_m, seconds)));
     }
   }
 
@@ -309,11 +323,16 @@ class Ride {
     this.label = element("output", { class: "clock" });
     this.toggle = button("Let go", () => (this.running ? this.stop() : this.start()), { class: "primary", id: "ride" });
     this.slow = element("input", { type: "checkbox", id: "ride-slow" });
+    this.finished = false;
+    // The times that stand there are those of the friction that is shown.
+    store.on("friction", () => {
+      if (this.finished) this.label.textContent = this.result();
+    });
   }
 
   get duration() {
-    const { ride, straight } = this.doc;
-    return Math.max(ride.travel_time_s ?? 0, straight ? straight.time_s.at(-1) : 0);
+    const { stations, straight } = this.doc;
+    return Math.max(...stations.time_s, straight ? straight.time_s.at(-1) : 0);
   }
 
   controls() {
@@ -322,7 +341,7 @@ class Ride {
 
   result() {
     const { ride, straight } = this.doc;
-    const times = [`this track ${ride.travel_time_s.toFixed(3)}\u00a0s`];
+    const times = [ride.travel_time_s === null ? "on this track the body does not arrive" : `this track ${ride.travel_time_s.toFixed(3)}\u00a0s`];
     const level = (ride.friction ?? "nominal") === "nominal" ? "" : " at nominal friction";
     if (straight) times.push(`straight line${level} ${straight.time_s.at(-1).toFixed(3)}\u00a0s`);
     return times.join(", ");
@@ -330,6 +349,7 @@ class Ride {
 
   start() {
     this.running = true;
+    this.finished = false;
     this.toggle.textContent = "Stop";
     this.seconds = 0;
     this.last = null;
@@ -340,7 +360,8 @@ class Ride {
     this.running = false;
     this.toggle.textContent = "Let go";
     this.profile.moveBodies(null);
-    this.label.textContent = this.seconds > this.duration ? this.result() : "";
+    this.finished = this.seconds > this.duration;
+    this.label.textContent = this.finished ? this.result() : "";
   }
 
   step(now) {
@@ -349,7 +370,8 @@ class Ride {
     this.last = now;
     const clamped = Math.min(this.seconds, this.duration);
     this.profile.moveBodies(clamped);
-    this.store.set("station", stationAt(this.doc.stations.time_s, clamped));
+    const times = this.doc.stations.time_s;
+    this.store.set("station", stationAt(times.includes(null) ? times.slice(0, times.indexOf(null)) : times, clamped));
     this.label.textContent = `${clamped.toFixed(2)} s`;
     if (this.seconds > this.duration + 1.5) this.stop();
     else requestAnimationFrame((next) => this.step(next));

@@ -66,12 +66,23 @@ function list(rows) {
     element("dt", {}, name), element("dd", {}, value))));
 }
 
-// What slides has a friction angle, what rolls a resistance.
-function frictionRow(body, units) {
-  if (body.body === "rolling") {
-    return ["Rolling body", `radius ${units.text("length", body.radius_m, 4)}, rolling resistance ${number(body.rolling_resistance, 4)}`];
-  }
-  return ["Friction angle", `${units.text("angle", body.friction_angle_deg, 4)} (coefficient ${number(body.friction_coefficient, 4)})`];
+// What slides has a friction angle, what rolls a resistance; either may change along the track.
+function frictionRow(body, changes, units) {
+  const rolls = body.body === "rolling";
+  const one = ({ friction_angle_deg: angle, friction_coefficient: coefficient }) =>
+    (rolls ? number(coefficient, 4) : `${units.text("angle", angle, 4)} (coefficient ${number(coefficient, 4)})`);
+  const all = [one(body), ...changes.map((change) => `from s = ${units.text("length", change.from_m, 5)} on ${one(change)}`)].join("; ");
+  return rolls ? ["Rolling body", `radius ${units.text("length", body.radius_m, 4)}, rolling resistance ${all}`] : ["Friction angle", all];
+}
+
+// What makes a body other than a point in still air.
+function bodyRows(body, units) {
+  const wind = body.head_wind_m_per_s ?? 0;
+  return [
+    // A ball's is its radius where nothing else is said.
+    ...(body.centre_height_m === 0 || body.centre_height_m === body.radius_m ? [] : [["Centre of mass", `${units.text("length", body.centre_height_m, 4)} above the track`]]),
+    ...(wind === 0 ? [] : [[wind > 0 ? "Head wind" : "Tail wind", units.text("speed", Math.abs(wind), 4)]]),
+  ];
 }
 
 // The task at the friction that is shown: with a feed the entry speed follows from it.
@@ -79,12 +90,16 @@ function task({ endpoints, body: nominal, placement, ride }, units) {
   const shown = Object.fromEntries(["friction_angle_deg", "friction_coefficient", "entry_speed_m_per_s"]
     .filter((key) => ride[key] !== undefined && nominal[key] !== undefined).map((key) => [key, ride[key]]));
   const body = { ...nominal, ...shown };
-  const point = (values) => values.map((v) => number(units.convert("length", v), 5)).join(", ") + NO_BREAK + units.unit("length");
+  // What begins beyond the finish has no effect.
+  const changes = (body.friction_along_the_track ?? []).filter(({ from_m: from }) => from > 0 && from < ride.arc_length_m);
+  const place = units.place(ride.arc_length_m);
+  const point = (values) => values.map(place).join(", ") + NO_BREAK + units.unit("length");
   return list([
     ["Run and drop", `${units.text("length", endpoints.run_m, 5)} and ${units.text("length", endpoints.drop_m, 5)}`],
     ["Start (x, y, z)", point(placement.start_m)],
     ["Finish (x, y, z)", point(placement.finish_m)],
-    frictionRow(body, units),
+    frictionRow(body, changes, units),
+    ...bodyRows(body, units),
     ...(body.mass_flow_kg_per_s === undefined ? [] : [
       ["Stream", `${number(3.6 * body.mass_flow_kg_per_s, 4)}${NO_BREAK}t/h at ${number(body.bulk_density_kg_per_m3, 4)}${NO_BREAK}kg/m\u00b3`],
     ]),
@@ -116,7 +131,8 @@ function track(doc, units) {
 // Where the origin of the mesh files lies on the site.
 function offsetText(offset, units) {
   if (offset.every((value) => value === 0)) return "none: files are in the site's coordinates";
-  return `${offset.map((value) => number(units.convert("length", value), 9)).join(", ")}${NO_BREAK}${units.unit("length")}`;
+  const finest = 1e-3;  // to a tenth of a micrometre
+  return `${offset.map(units.place(finest)).join(", ")}${NO_BREAK}${units.unit("length")}`;
 }
 
 function mesh({ mesh: facts }, units) {

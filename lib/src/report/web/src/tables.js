@@ -1,5 +1,5 @@
 import { button, element, scrollable, section, select } from "./dom.js";
-import { interpolate } from "./data.js";
+import { decodeArray } from "./data.js";
 import { columnText, number, quantityOf, superscripts } from "./units.js";
 
 const COLUMNS = [
@@ -16,37 +16,24 @@ const COLUMNS = [
 
 const MISSING = { curvature_per_m: "unbounded", radius_m: "straight", normal_load_m_per_s2: "unbounded" };
 
-// Rows at a spacing, interpolated between the stations of the document; the radius from the curvature.
-export function rowsAt(stations, spacing) {
-  const length = stations.arc_length_m[stations.arc_length_m.length - 1];
-  const rows = [];
-  const count = Math.floor(length / spacing + 1e-9);
-  for (let i = 0; i <= count; i += 1) rows.push(Math.min(i * spacing, length));
-  if (length - rows[rows.length - 1] > 1e-9 * length) rows.push(length);
-  return rows.map((s) => {
-    const row = {};
-    for (const [, , key] of COLUMNS) {
-      if (key !== "radius_m") row[key] = valueAt(stations, key, s);
-    }
+// Rows at a multiple of the finest spacing, each as the motion tells it; the radius from the curvature.
+function rowsAt(table, multiple) {
+  const { arc_length_m: places } = table;
+  const length = places[places.length - 1];
+  const rows = places.map((_, i) => i).filter((i) => i % multiple === 0 || i === places.length - 1);
+  return rows.map((i) => {
+    const row = Object.fromEntries(COLUMNS.filter(([, , key]) => key !== "radius_m").map(([, , key]) => [key, table[key][i]]));
     const { curvature_per_m: curvature } = row;
     row.radius_m = curvature === null ? 0 : Math.abs(curvature) < 1e-6 / length ? null : 1 / Math.abs(curvature);
     return row;
   });
 }
 
-function valueAt(stations, key, s) {
-  const column = stations[key];
-  const index = stations.arc_length_m.indexOf(s);
-  if (index >= 0) return column[index];
-  const value = interpolate(stations.arc_length_m, column, s);
-  return Number.isFinite(value) ? value : null;
-}
+const columnsOf = (table) => Object.fromEntries(Object.entries(table).filter(([, column]) => column.data !== undefined)
+  .map(([key, column]) => [key, Array.from(decodeArray(column), (value) => (Number.isNaN(value) ? null : value))]));
 
-function spacings(length) {
-  const rough = length / 20;
-  const decade = 10 ** Math.floor(Math.log10(rough));
-  return [0.1, 0.2, 0.5, 1, 2, 5].map((k) => k * decade).filter((d) => length / d <= 2000 && length / d >= 2);
-}
+// The finest spacing and its multiples that leave a table of two rows and more.
+const multiplesOf = ({ arc_length_m: places }) => [1, 2, 5, 10, 20, 50].filter((k) => k === 1 || places.length > 2 * k);
 
 function csv(doc, units, rows) {
   const head = COLUMNS.map(([name, quantity]) => `${name} [${units.unit(quantity)}]`).join(",");
@@ -61,18 +48,22 @@ export function stationTable(doc, store, units) {
   const body = element("tbody");
   const head = element("thead");
   const status = element("span", { role: "status", class: "status" });
-  const options = spacings(doc.ride.arc_length_m);
-  let spacing = options[Math.min(3, options.length - 1)];
+  const track = columnsOf(doc.table);
+  const options = multiplesOf(track);
+  let multiple = options[Math.min(3, options.length - 1)];
 
-  const rows = () => rowsAt(doc.stations, spacing);
+  const ride = () => doc.rides.find(({ friction }) => friction === (doc.ride.friction ?? "nominal"));
+  const rows = () => rowsAt({ ...track, ...columnsOf(ride().table) }, multiple);
   const draw = () => {
     head.replaceChildren(element("tr", {}, COLUMNS.map(([name, quantity]) =>
       element("th", { scope: "col" }, name, element("span", { class: "unit" }, ` [${units.unit(quantity)}]`)))));
     const shown = rows();
+    const place = units.place(doc.ride.arc_length_m, true);
     const columns = COLUMNS.map(([, quantity, key]) => {
       const values = shown.map((row) => units.convert(quantity, row[key]));
       // Radii of one track differ by orders of magnitude: each has its own digits.
       const text = key === "radius_m" ? (value) => number(value, 5) : columnText(values);
+      if (key === "z_m") return shown.map((row) => place(row[key]));
       return values.map((value) => (value === null ? MISSING[key] ?? "\u2013" : text(value)));
     });
     body.replaceChildren(...shown.map((_, i) =>
@@ -100,13 +91,13 @@ export function stationTable(doc, store, units) {
   };
 
   const control = select("Spacing", [], (value) => {
-    spacing = Number(value);
+    multiple = Number(value);
     draw();
   });
   const label = () => {
     const list = control.querySelector("select");
-    list.replaceChildren(...options.map((d) => element("option", { value: d }, units.text("length", d, 3))));
-    list.value = String(spacing);
+    list.replaceChildren(...options.map((k) => element("option", { value: k }, units.text("length", k * doc.table.spacing_m, 3))));
+    list.value = String(multiple);
   };
   label();
   store.on("units", label);
@@ -166,10 +157,10 @@ function priceText(limit, units) {
 }
 
 // Of a clearance that the whole solid keeps: which part of it comes closest, and where.
-function closestText(limit, units) {
+function closestText(limit, units, extent) {
   if (!limit.closest) return null;
   const { part, x_m: x, z_m: z } = limit.closest;
-  return element("span", { class: "detail" }, `closest: ${part}, at x = ${units.text("length", x, 4)}, z = ${units.text("length", z, 4)}`);
+  return element("span", { class: "detail" }, `closest: ${part}, at x = ${units.placeText(x, extent)}, z = ${units.placeText(z, extent)}`);
 }
 
 export function limitTable(doc, store, units) {
@@ -179,7 +170,7 @@ export function limitTable(doc, store, units) {
     element("th", { scope: "row" }, element("span", { class: "limit-name" }, limit.name), element("code", { class: "key" }, limit.limit)),
     element("td", {}, boundText(limit, units)),
     element("td", {}, reachedText(limit, units)),
-    element("td", {}, placeText(limit, units), closestText(limit, units)),
+    element("td", {}, placeText(limit, units), closestText(limit, units, doc.ride.arc_length_m)),
     element("td", {}, limit.status),
     element("td", {}, priceText(limit, units)))));
   draw();

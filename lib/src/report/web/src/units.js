@@ -64,6 +64,21 @@ export class Units {
     return MISSING[quantity] ?? "\u2013";
   }
 
+  // Gives texts of places on the site, to the millimetre and finer on a track that is small, however far away its origin lies.
+  // @param extent  length of the track [m]
+  // @param even    all with the same decimals, for a column
+  place(extent, even = false) {
+    const decimals = Math.max(placeDecimals(extent) - Math.round(Math.log10(this.convert("length", 1))), 0);
+    return (value) => {
+      const text = this.convert("length", value).toFixed(decimals).replace(/^-(0(\.0+)?)$/, "$1");
+      return even ? text : text.replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+    };
+  }
+
+  placeText(value, extent) {
+    return `${this.place(extent)(value)}\u00a0${this.unit("length")}`;
+  }
+
   text(quantity, value, digits = 5) {
     if (value === null || value === undefined) return this.missing(quantity);
     // What an angle is off level by rounding is no angle.
@@ -75,19 +90,44 @@ export class Units {
   }
 }
 
+// Decimals of a place in metres, five digits of the track's length and at least the millimetre.
+const placeDecimals = (extent) => Math.min(Math.max(4 - Math.floor(Math.log10(extent || 1)), 3), 9);
+
 export function number(value, digits = 5) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "\u2013";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e7 || size < 1e-4) return value.toExponential(digits - 1);
+  // A large number whose digits reach below its decimal point is written out.
+  if ((size >= 1e7 && size >= 10 ** digits) || size < 1e-4) return value.toExponential(digits - 1);
   return String(Number(value.toPrecision(digits)));
+}
+
+// The decimals that tell every multiple of a step; it may be 2.5 times a power of ten. More than a double has none.
+function decimalsOf(step) {
+  for (let decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9)); decimals < 16; decimals += 1) {
+    const count = step * 10 ** decimals;
+    if (Math.abs(count - Math.round(count)) < 1e-6 * count) return decimals;
+  }
+  return 16;
+}
+
+// Texts of the ticks of an axis, each with the digits that tell it from its neighbours; null is none.
+export function tickTexts(values) {
+  const shown = values.filter((value) => value !== null);
+  const step = shown.length > 1 ? Math.abs(shown[shown.length - 1] - shown[0]) / (shown.length - 1) : Math.abs(shown[0] ?? 0);
+  const largest = Math.max(...shown.map(Math.abs), 0);
+  if (step === 0 || largest === 0) return values.map((value) => (value === null ? "" : number(value, 4)));
+  // Of evenly spaced ticks the mean of their steps is the step, but for rounding.
+  const decimals = decimalsOf(Number(step.toPrecision(9)));
+  const digits = Math.min(Math.max(4, Math.floor(Math.log10(largest)) + 1 + decimals), 16);
+  return values.map((value) => (value === null ? "" : Math.abs(value) < 1e-9 * step ? "0" : number(value, digits)));
 }
 
 // Writes the values of one column with the same number of decimals, so that digits stand below digits; what is
 // far below the column's own size is rounding, not a value.
 export function columnText(values, digits = 5) {
   const largest = Math.max(...values.map((v) => (v === null || !Number.isFinite(v) ? 0 : Math.abs(v))), 0);
-  if (largest === 0 || largest >= 1e7 || largest < 1e-6) return (value) => number(value, digits);
+  if (largest === 0 || largest >= 1e15 || largest < 1e-6) return (value) => number(value, digits);
   const decimals = Math.min(Math.max(digits - 1 - Math.floor(Math.log10(largest)), 0), 9);
   return (value) => (value === null || !Number.isFinite(value) ? "\u2013" : value.toFixed(decimals).replace(/^-(0(\.0+)?)$/, "$1"));
 }

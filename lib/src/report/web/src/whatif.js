@@ -3,6 +3,8 @@
 import { element, section } from "./dom.js";
 import { number } from "./units.js";
 
+const SAME = 1e-6;  // degrees: an angle that went through its tangent and back
+
 const different = (values) => [...new Set(values)];
 
 export class WhatIf {
@@ -23,13 +25,18 @@ function slider(label, values, start, text, onchange) {
   const input = element("input", {
     type: "range", min: 0, max: values.length - 1, step: 1, value: start, "aria-label": label, "aria-valuetext": text(values[start]),
   });
-  input.addEventListener("input", () => {
+  const tell = () => {
     const value = values[Number(input.value)];
     output.textContent = text(value);
     input.setAttribute("aria-valuetext", text(value));
     onchange(Number(input.value));
-  });
-  return { input, node: element("label", { class: "control" }, element("span", {}, label), input, output) };
+  };
+  input.addEventListener("input", tell);
+  const move = (index) => {
+    input.value = String(index);
+    tell();
+  };
+  return { move, node: element("label", { class: "control" }, element("span", {}, label), input, output) };
 }
 
 function facts(ride, units) {
@@ -52,12 +59,14 @@ export function whatIfSection(doc, store, units) {
   const start = { friction: all.frictions.indexOf(all.nominal.friction_angle_deg), flow: all.flows.indexOf(all.nominal.mass_flow_kg_per_s) };
   const now = { ...start };
   const list = element("dl", { class: "readout", id: "what-if-facts", "aria-live": "polite" });
+  // The page shows its own ride, which is told more finely, where the sliders stand at what it is ridden with.
+  const ridden = ({ friction_angle_deg: angle }) => Math.abs(angle - (doc.ride.friction_angle_deg ?? doc.body.friction_angle_deg)) < SAME;
+  const own = (ride) => now.flow === start.flow && ridden(ride);
   const show = () => {
     const ride = all.at(now.friction, now.flow);
     list.replaceChildren(...facts(ride, units));
     list.dataset.choked = String(ride.choked);
-    // At the design's own values the page shows its own ride, which is told more finely.
-    store.set("whatIf", ride.nominal ? null : ride);
+    store.set("whatIf", own(ride) ? null : ride);
   };
   const flow = slider("Mass flow", all.flows, start.flow, (value) => `${number(3.6 * value, 4)}\u00a0t/h`, (index) => {
     now.flow = index;
@@ -69,6 +78,12 @@ export function whatIfSection(doc, store, units) {
   });
   show();
   store.on("units", show);
+  // The switch of the whole page moves the slider to its friction.
+  store.on("friction", () => {
+    const level = all.frictions.findIndex((angle) => ridden({ friction_angle_deg: angle }));
+    if (level >= 0) friction.move(level);
+    show();
+  });
   return section("what-if", "Another flow, another friction", element("div", { class: "controls" }, flow.node, friction.node), list,
     element("p", { class: "hint" }, `${all.rides.length} rides of this track, computed beforehand; the profile and the view above show the stream of the one chosen.`));
 }
