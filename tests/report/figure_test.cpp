@@ -52,6 +52,60 @@ TEST_CASE("figure: one metre on x is one metre on y where it is to scale") {
   CHECK(dx / dy == Approx(10.0 / 5.0).epsilon(1e-3));
 }
 
+/// Every text of a class, as it stands in the markup, with its place.
+struct Placed {
+  double x = 0.0;
+  double y = 0.0;
+  std::string text;
+};
+std::vector<Placed> texts_of(const std::string& svg, const std::string& attributes) {
+  const std::regex pattern("<text" + attributes + " x=\"([-0-9.]+)\" y=\"([-0-9.]+)\">([^<]*)</text>");
+  std::vector<Placed> found;
+  for (auto one = std::sregex_iterator(svg.begin(), svg.end(), pattern); one != std::sregex_iterator(); ++one)
+    found.push_back({std::stod((*one)[1]), std::stod((*one)[2]), (*one)[3]});
+  return found;
+}
+
+TEST_CASE("figure: a long title and long names stand in lines within the picture, to the last word") {
+  const std::string words =
+      "Materialrutsche unter dem Becherwerk, Bauabschnitt zwei, mit Absperrschieber und Verschleissblechen, "
+      "Achse 14";
+  const std::string one_word(200, 'W');
+  for (const double width : {348.0, 540.0, 800.0}) {
+    for (const std::string& name :
+         {std::string("Short"), words, words + " " + words.substr(0, 80), one_word}) {
+      INFO(width << " " << name);
+      Figure figure = ramp();
+      figure.title = name + ": normal load";
+      figure.lines[0].name = name;
+      const std::string svg = figures_svg({figure}, width);
+      std::string title;
+      for (const Placed& line : texts_of(svg, " class=\"title\"")) {
+        // What letters of the bold font of the pictures are wide at least, on average.
+        double ems = 0.0;
+        for (const char letter : line.text) ems += letter == 'W' ? 1.1 : 0.62;
+        CHECK(line.x + 15.0 * ems < width);
+        title += (title.empty() || line.text.front() == 'W' ? "" : " ") + line.text;
+      }
+      CHECK(title.ends_with(": normal load"));
+      CHECK(title.size() >= figure.title.size() - 1);
+      const auto titles = texts_of(svg, " class=\"title\"");
+      const std::regex frame("class=\"frame\" x=\"[0-9.]+\" y=\"([0-9.]+)\"");
+      std::smatch top;
+      REQUIRE(std::regex_search(svg, top, frame));
+      CHECK(std::stod(top[1]) == Approx(titles.back().y + 16.0));
+      const std::regex height("<svg [^>]* height=\"([0-9]+)\"");
+      std::smatch whole;
+      REQUIRE(std::regex_search(svg, whole, height));
+      for (const Placed& line : texts_of(svg, "")) {
+        CHECK(line.y < std::stod(whole[1]));
+        if (line.text != "bent" && name != one_word)
+          CHECK(line.x + 12.0 * 0.55 * static_cast<double>(line.text.size()) < width);
+      }
+    }
+  }
+}
+
 TEST_CASE("figure: the names of panels and lines are escaped") {
   Figure figure = ramp();
   figure.title = "<b>&\"";

@@ -2,11 +2,14 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include "drawing/extents.hpp"
 #include "drawing/ink.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdlib>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -167,22 +170,68 @@ std::string scale_text(double scale) {
   return scale >= 1.0 ? rounded_text(scale, 6) + ":1" : "1:" + rounded_text(1.0 / scale, 6);
 }
 
+namespace drawing {
+namespace {
+
+/// ISO 5455 and its series beyond 50:1 and 1:10000.
+/// @param step  1:1 at 0, 2:1 at 1, 5:1 at 2, 10:1 at 3; 1:2 at -1
+double scale_at(int step) {
+  constexpr std::array kFactors = {1.0, 2.0, 5.0};
+  const int size = std::abs(step);
+  double factor = kFactors[static_cast<std::size_t>(size % 3)];
+  for (int decade = 0; decade < size / 3; ++decade) factor *= 10.0;
+  return step < 0 ? 1.0 / factor : factor;
+}
+
+/// More than lies between an atom and the sun, taken for one sheet each.
+constexpr int kMostSteps = 60;  // budget
+
+/// @param fits  of a scale
+/// @return the largest step of the series that fits, at most `from`; the smallest one where none does
+int fitting_step(int from, auto&& fits) {
+  int step = from;
+  while (step > -kMostSteps && !fits(scale_at(step))) --step;
+  return step;
+}
+
+bool holds(const PlaneBox& outer, const PlaneBox& inner) {
+  return inner.low.x >= outer.low.x && inner.low.y >= outer.low.y && inner.high.x <= outer.high.x &&
+         inner.high.y <= outer.high.y;
+}
+
+/// @return the step of the scale at which a box fits a room; 1:1 of a box without a size
+int step_of(const PlaneBox& box, const PlaneBox& room) {
+  if (box.width() == 0.0 && box.height() == 0.0) return 0;
+  return fitting_step(kMostSteps, [&](double scale) {
+    return scale * box.width() <= room.width() && scale * box.height() <= room.height();
+  });
+}
+
+}  // namespace
+}  // namespace drawing
+
 SheetView fitted_view(Drawing drawing, const PlaneBox& room, std::string caption) {
-  // ISO 5455.
-  constexpr std::array kScales = {50.0,      20.0,      10.0,       5.0,        2.0,        1.0,
-                                  1.0 / 2,   1.0 / 5,   1.0 / 10,   1.0 / 20,   1.0 / 50,   1.0 / 100,
-                                  1.0 / 200, 1.0 / 500, 1.0 / 1000, 1.0 / 2000, 1.0 / 5000, 1.0 / 10000};
   SheetView view;
   const PlaneBox box = bounds(drawing).value_or(PlaneBox{});
-  const auto fits = [&](double scale) {
-    return scale * box.width() <= room.width() && scale * box.height() <= room.height();
-  };
-  const auto* const found = std::find_if(kScales.begin(), kScales.end(), fits);
-  view.scale = found == kScales.end() ? kScales.back() : *found;
+  view.scale = drawing::scale_at(drawing::step_of(box, room));
   view.anchor = 0.5 * (box.low + box.high);
   view.at = 0.5 * (room.low + room.high);
   view.drawing = std::move(drawing);
   view.caption = std::move(caption);
+  return view;
+}
+
+SheetView fitted_view_with_texts(Drawing drawing, const PlaneBox& room, const PlaneBox& outer) {
+  SheetView view = fitted_view(std::move(drawing), room);
+  const int largest = drawing::step_of(bounds(view.drawing).value_or(PlaneBox{}), room);
+  const int step = drawing::fitting_step(largest, [&](double scale) {
+    view.scale = scale;
+    Drawing ink;
+    drawing::place(view, ink);
+    const auto box = drawing::extents(ink);
+    return !box || drawing::holds(outer, *box);
+  });
+  view.scale = drawing::scale_at(step);
   return view;
 }
 

@@ -3,6 +3,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/dxf_file.hpp"
 
+#include "drawing/extents.hpp"
 #include "drawing/glyphs.hpp"
 
 #include <algorithm>
@@ -227,7 +228,7 @@ class DxfFile {
 
   void header() {
     constexpr int kUnitIsMillimetre = 4;
-    const PlaneBox box = bounds(drawing_).value_or(PlaneBox{});
+    const PlaneBox box = drawing::extents(drawing_).value_or(PlaneBox{});
     // As many handles as entities and layers need: the seed lies above all of them.
     std::size_t handles =
         kFirstFree + drawing_.layers.size() + drawing_.circles.size() + drawing_.texts.size();

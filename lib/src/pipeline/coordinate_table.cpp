@@ -33,12 +33,21 @@ namespace {
 
 constexpr double kMostStations = 1e5;
 
+/// @return 1, 2 or 5 times a power of ten that makes some hundred stations
+double round_step_along(double length) {
+  constexpr double kStations = 100.0;  // taste
+  const double step = length / kStations;
+  const double decade = math::decade_of(step);
+  return step >= 5.0 * decade ? 5.0 * decade : step >= 2.0 * decade ? 2.0 * decade : decade;
+}
+
 void require_options(const Track& track, const ProfileOptions& options) {
   const double length = track.centerline->length();
   if (!(options.step > 0.0) || length / options.step > kMostStations) {
     throw InputError(
         {"--step", "a step of " + length_text(options.step) + " is out of range",
-         "It is above 0, and a track of " + length_text(length) + " has at most 100 000 stations.", "1 m"});
+         "It is above 0, and a track of " + length_text(length) + " has at most 100 000 stations.",
+         length_text(round_step_along(length))});
   }
   const Centerline& centerline = *track.centerline;
   if (centerline.unbounded_curvature_at_start() && !options.parallels.empty()) {

@@ -1,20 +1,30 @@
 // What the sweep sweeps, as a drawing: lines and arcs of the outline, and the measures that a workshop asks for.
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/pipeline/profile_drawing.hpp"
 #include "glissade/section/cross_section.hpp"
 
 #include "core/millimetres.hpp"
+#include "pipeline/sheet_lengths.hpp"
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <variant>
 
 namespace glissade {
+
+using namespace pipeline;
+
 namespace {
 
 /// What the text of a DXF is sized for: a bed of some metres on an A3 sheet.
-constexpr double kLettersPerSection = 10.0;
+constexpr double kSectionTextScale = 10.0;  // taste
+
+// What lettering and the cross at the centerline are sized for, along the greater side [mm].
+constexpr double kSmallestSection = 400.0;  // taste: a chute
+constexpr double kLargestSection = 4000.0;  // taste: the bed of a hill
 
 /// The section's x counts to the left of a body that looks towards the finish; on paper left is left.
 Vec2 on_paper(Vec2 point) {
@@ -34,8 +44,12 @@ ArcPath path_of(const section::Outline& outline) {
 
 class Dimensions {
  public:
-  explicit Dimensions(Drawing& drawing)
-      : drawing_(drawing), layer_(drawing.layer({"dimensions", LineStyle::continuous, 0.18, 5})) {}
+  /// @param size  of the section [mm]
+  Dimensions(Drawing& drawing, double size)
+      : drawing_(drawing), layer_(drawing.layer({"dimensions", LineStyle::continuous, 0.18, 5})) {
+    constexpr double kSteps = 200.0;  // taste: that a section's greater side has at least
+    while (size * shares_ < kSteps) shares_ *= 10.0;
+  }
 
   /// @param offset_mm  of the dimension line on paper, above where positive
   void level(double from_x, double to_x, double height, double offset_mm) {
@@ -48,12 +62,18 @@ class Dimensions {
  private:
   /// In metres of the paper's frame: x to the right.
   void add(Vec2 from, Vec2 to, double offset_mm, DimensionKind kind) {
+    const double length = core::kMillimetres * (kind == DimensionKind::level ? to.x - from.x : to.y - from.y);
+    const std::string text =
+        shares_ == kTenths ? "" : decimal_text(std::round(shares_ * std::fabs(length)) / shares_);
     drawing_.dimensions.push_back(
-        {layer_, core::kMillimetres * from, core::kMillimetres * to, offset_mm, kind, ""});
+        {layer_, core::kMillimetres * from, core::kMillimetres * to, offset_mm, kind, text});
   }
+
+  static constexpr double kTenths = 10.0;  // what dimensions are told to
 
   Drawing& drawing_;
   std::size_t layer_;
+  double shares_ = kTenths;  // of a millimetre
 };
 
 void add_grooves(const section::TrackGroove& track, Dimensions& dimensions) {
@@ -73,7 +93,6 @@ std::optional<Drawing> cross_section_drawing(const Design& design) {
   const CrossSection section = CrossSection(*design.cross_section).at(0.0);
   Drawing drawing;
   drawing.name = design.name;
-  drawing.text_scale = kLettersPerSection;
   const std::size_t outline = drawing.layer({"outline", LineStyle::continuous, 0.5, 7});
   Vec2 low{0.0, section.lowest()};
   Vec2 high{0.0, section.highest()};
@@ -91,16 +110,19 @@ std::optional<Drawing> cross_section_drawing(const Design& design) {
       }
     }
   }
-  Dimensions dimensions(drawing);
+  const double size = core::kMillimetres * std::fmax(high.x - low.x, high.y - low.y);
+  const double factor = lettering_factor(size, kSmallestSection, kLargestSection);
+  drawing.text_scale = factor * kSectionTextScale;
+  Dimensions dimensions(drawing, size);
   dimensions.level(low.x, high.x, low.y, -14.0);
   dimensions.upright(low.x, low.y, high.y, 14.0);
   if (low.y < 0.0 && high.y > 0.0) dimensions.upright(high.x, low.y, 0.0, -14.0);
   if (const auto* const grooves = std::get_if<section::TrackGroove>(&*design.cross_section))
     add_grooves(*grooves, dimensions);
   const std::size_t centre = drawing.layer({"centerline", LineStyle::chain, 0.18, 1});
-  constexpr double kReach = 40.0;  // [mm]
-  drawing.line(centre, {0.0, -kReach}, {0.0, kReach});
-  drawing.line(centre, {-kReach, 0.0}, {kReach, 0.0});
+  const double reach = 40.0 * factor;  // taste [mm]
+  drawing.line(centre, {0.0, -reach}, {0.0, reach});
+  drawing.line(centre, {-reach, 0.0}, {reach, 0.0});
   return drawing;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/millimetres.hpp"
 #include "pipeline/letters.hpp"
+#include "pipeline/sheet_lengths.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,16 @@ using namespace pipeline;
 namespace {
 
 /// What the text of a DXF is sized for: a section of 100 m on an A3 sheet.
-constexpr double kTextScale = 250.0;
+constexpr double kTextScale = 250.0;  // taste
+
+// What lettering and marks are sized for: the in-runs of hills, along their greater side [m].
+constexpr double kSmallestHill = 50.0;  // measured: HS 38
+constexpr double kLargestHill = 120.0;  // measured: HS 240
+
+SheetLengths lengths_of(const Track& track) {
+  const Endpoints end = track.centerline->endpoints();
+  return SheetLengths(std::max(std::fabs(end.run), std::fabs(end.drop)));
+}
 
 /// The plane of the drawing: millimetres, the finish at the origin, the body coming from the left.
 class Plane {
@@ -61,22 +71,36 @@ ArcPath path_of(const Centerline& centerline, const Plane& plane, double height)
   return path;
 }
 
-void add_gates(const Track& track, const Plane& plane, Drawing& drawing) {
+/// What the marks and letters along a track are drawn with; lengths are those on a hill.
+class Marks {
+ public:
+  Marks(const Plane& plane, double factor) : plane_(plane), factor_(factor) {}
+
+  [[nodiscard]] double sized(double metres_on_hill) const { return factor_ * metres_on_hill; }
+  /// @param height  above the track, square to it, as on a hill [m]
+  [[nodiscard]] Vec2 at(double s, double height = 0.0) const { return plane_.at(s, sized(height)); }
+
+ private:
+  const Plane& plane_;
+  double factor_;
+};
+
+void add_gates(const Track& track, const Marks& marks, Drawing& drawing) {
   if (!track.gates) return;
   const std::size_t layer = drawing.layer({"gates", LineStyle::continuous, 0.18, 3});
-  constexpr double kTick = 0.6;  // [m]
-  constexpr int kEvery = 5;
+  constexpr double kTick = 0.6;  // taste [m]
+  constexpr int kEvery = 5;      // taste
   const int last = track.gates->gates.back().number;
   for (const Gate& gate : track.gates->gates) {
     // A number close to the last would lie across it.
     const bool told = gate.number == 1 || gate.number == last ||
                       (gate.number % kEvery == 0 && last - gate.number > kEvery / 2);
-    drawing.line(layer, plane.at(gate.from_start), plane.at(gate.from_start, told ? 2.0 * kTick : kTick));
+    drawing.line(layer, marks.at(gate.from_start), marks.at(gate.from_start, told ? 2.0 * kTick : kTick));
     if (!told) continue;
     // Beside the lines that lead to dimensions from the first and the last of them.
-    constexpr double kBeside = 0.9;  // [m]
+    constexpr double kBeside = 0.9;  // taste [m]
     drawing.texts.push_back({layer,
-                             plane.at(gate.from_start + kBeside, 2.4 * kTick),
+                             marks.at(gate.from_start + marks.sized(kBeside), 2.4 * kTick),
                              1.8,
                              std::to_string(gate.number),
                              TextAnchor::centre,
@@ -84,67 +108,79 @@ void add_gates(const Track& track, const Plane& plane, Drawing& drawing) {
   }
 }
 
-void add_letters(const Design& design, const Track& track, const Plane& plane, Drawing& drawing) {
+void add_letters(const Design& design, const Track& track, const Marks& marks, Drawing& drawing) {
   const std::size_t layer = drawing.layer({"letters", LineStyle::continuous, 0.25, 1});
   std::optional<double> before;
   for (const Letter& letter : letters_of(design, *track.centerline)) {
-    constexpr double kRadius = 150.0;  // [mm]
-    drawing.add(layer, Circle{plane.at(letter.arc_length), kRadius});
+    constexpr double kRadius = 0.15;  // taste [m]
+    drawing.add(layer, Circle{marks.at(letter.arc_length), core::kMillimetres * marks.sized(kRadius)});
     // Letters that would cover each other stand one below the other.
-    constexpr double kClose = 4.0;   // [m]
-    constexpr double kBelow = -2.5;  // [m]
-    constexpr double kLower = -6.0;  // [m]
-    const bool close = before && letter.arc_length - *before < kClose;
+    constexpr double kClose = 4.0;   // taste [m]
+    constexpr double kBelow = -2.5;  // taste [m]
+    constexpr double kLower = -6.0;  // taste [m]
+    const bool close = before && letter.arc_length - *before < marks.sized(kClose);
+    // A track that climbs to a letter lies below it on the left.
+    const bool climbs = before && track.centerline->slope_angle(letter.arc_length) < 0.0;
     drawing.texts.push_back({layer,
-                             plane.at(letter.arc_length, close ? kLower : kBelow),
+                             marks.at(letter.arc_length, close ? kLower : kBelow),
                              3.5,
                              letter.name,
-                             TextAnchor::right,
+                             climbs ? TextAnchor::left : TextAnchor::right,
                              {}});
     before = letter.arc_length;
   }
 }
 
-std::string metres_text(double metres) {
-  return rounded_text(1e-3 * std::round(1e3 * metres), 7) + " m";
+DrawingLayer dimension_lines() {
+  return {"dimensions", LineStyle::continuous, 0.18, 5};
 }
 
-/// Lengths along the straight pieces and the measures of the whole.
-void add_dimensions(const Design& design, const Track& track, const Plane& plane, Drawing& drawing) {
-  const std::size_t layer = drawing.layer({"dimensions", LineStyle::continuous, 0.18, 5});
-  const Centerline& centerline = *track.centerline;
-  const auto add = [&](double from, double to, double offset, DimensionKind kind, const std::string& text) {
-    drawing.dimensions.push_back({layer, plane.at(from), plane.at(to), offset, kind, text});
+/// Lengths along the straight pieces and the letters of an in-run.
+void add_in_run_dimensions(const Design& design, const InRun& in_run, const SheetLengths& lengths,
+                           const Marks& marks, Drawing& drawing) {
+  const std::size_t layer = drawing.layer(dimension_lines());
+  const auto add = [&](double from, double to, double offset, const std::string& text) {
+    drawing.dimensions.push_back({layer, marks.at(from), marks.at(to), offset, DimensionKind::aligned, text});
   };
-  const double length = centerline.length();
-  const Endpoints end = centerline.endpoints();
-  add(0.0, length, -22.0, DimensionKind::level, metres_text(end.run));
-  add(0.0, length, 16.0, DimensionKind::upright, metres_text(end.drop));
-  const auto* const in_run = dynamic_cast<const InRun*>(&centerline);
-  if (in_run == nullptr) return;
   if (const auto area = design.centerline.in_run.start_area(); area && *area > 0.0) {
     // High enough for its text to stand clear of the line at the level of A.
-    add(0.0, *area, 20.0, DimensionKind::aligned, "es " + metres_text(*area));
+    add(0.0, *area, 20.0, "es " + lengths.measure(*area));
   }
-  add(in_run->table_begins(), length, 12.0, DimensionKind::aligned, "t " + metres_text(in_run->shape().t));
+  add(in_run.table_begins(), in_run.length(), 12.0, "t " + lengths.measure(in_run.shape().t));
   const double e1 = design.centerline.in_run.longest();
-  const double bend = in_run->table_begins() - in_run->transition_begins();
+  const double bend = in_run.table_begins() - in_run.transition_begins();
   const std::size_t notes = drawing.layer({"notes", LineStyle::continuous, 0.25, 7});
   const auto note = [&](double s, double height, const std::string& text) {
-    drawing.texts.push_back({notes, plane.at(s, height), 2.5, text, TextAnchor::left, {}});
+    drawing.texts.push_back({notes, marks.at(s, height), 2.5, text, TextAnchor::left, {}});
   };
-  note(0.5 * (in_run->transition_begins() + in_run->table_begins()), 3.0,
-       "E1-E2 " + metres_text(bend) + ", r1 " + metres_text(in_run->shape().r1));
-  note(in_run->transition_begins(), 11.0,
-       "gamma " + angle_text(in_run->shape().gamma, 6) + ", e1 " + metres_text(e1) + " to the " +
+  note(0.5 * (in_run.transition_begins() + in_run.table_begins()), 3.0,
+       "E1-E2 " + lengths.measure(bend) + ", r1 " + lengths.measure(in_run.shape().r1));
+  note(in_run.transition_begins(), 11.0,
+       "gamma " + angle_text(in_run.shape().gamma, 6) + ", e1 " + lengths.measure(e1) + " to the " +
            (design.centerline.in_run.counts_to_edge ? "edge" : "table"));
   // To the left, clear of the line down from the edge.
   drawing.texts.push_back({notes,
-                           plane.at(in_run->table_begins(), -6.0),
+                           marks.at(in_run.table_begins(), -6.0),
                            2.5,
-                           "alpha " + angle_text(in_run->shape().alpha, 6),
+                           "alpha " + angle_text(in_run.shape().alpha, 6),
                            TextAnchor::right,
                            {}});
+}
+
+/// The measures of the whole, and those of an in-run.
+void add_dimensions(const Design& design, const Track& track, const Marks& marks, Drawing& drawing) {
+  const std::size_t layer = drawing.layer(dimension_lines());
+  const Centerline& centerline = *track.centerline;
+  const SheetLengths lengths = lengths_of(track);
+  const auto add = [&](double offset, DimensionKind kind, double measure) {
+    drawing.dimensions.push_back(
+        {layer, marks.at(0.0), marks.at(centerline.length()), offset, kind, lengths.measure(measure)});
+  };
+  const Endpoints end = centerline.endpoints();
+  add(-22.0, DimensionKind::level, end.run);
+  add(16.0, DimensionKind::upright, end.drop);
+  const auto* const in_run = dynamic_cast<const InRun*>(&centerline);
+  if (in_run != nullptr) add_in_run_dimensions(design, *in_run, lengths, marks, drawing);
 }
 
 }  // namespace
@@ -156,15 +192,19 @@ Drawing longitudinal_section(const Design& design, const Track& track, const Pro
   const Plane plane(centerline);
   Drawing drawing;
   drawing.name = design.name;
-  drawing.text_scale = kTextScale;
   drawing.add(drawing.layer({"track", LineStyle::continuous, 0.5, 7}), path_of(centerline, plane, 0.0));
   for (const ParallelLine& line : options.parallels) {
     drawing.add(drawing.layer({"parallel-" + line.name, LineStyle::dashed, 0.25, 8}),
                 path_of(centerline, plane, line.height));
   }
-  add_gates(track, plane, drawing);
-  add_letters(design, track, plane, drawing);
-  add_dimensions(design, track, plane, drawing);
+  const PlaneBox lines = bounds(drawing).value_or(PlaneBox{});
+  const double size = std::max(lines.width(), lines.height()) / core::kMillimetres;
+  const double factor = lettering_factor(size, kSmallestHill, kLargestHill);
+  drawing.text_scale = factor * kTextScale;
+  const Marks marks(plane, factor);
+  add_gates(track, marks, drawing);
+  add_letters(design, track, marks, drawing);
+  add_dimensions(design, track, marks, drawing);
   return drawing;
 }
 
@@ -176,6 +216,7 @@ using Row = std::vector<std::string>;
 std::vector<Row> certificate_rows(const Design& design, const Track& track, const InRun& in_run) {
   const InRunDesign& from = design.centerline.in_run;
   const HillDesign& hill = design.hill;
+  const SheetLengths lengths = lengths_of(track);
   std::vector<Row> rows;
   const auto add = [&](const char* letter, const char* english, const char* german, const char* french,
                        const std::string& value) {
@@ -183,7 +224,7 @@ std::vector<Row> certificate_rows(const Design& design, const Track& track, cons
   };
   const auto length = [&](const char* letter, const char* english, const char* german, const char* french,
                           const std::optional<double>& value) {
-    if (value) add(letter, english, german, french, metres_text(*value));
+    if (value) add(letter, english, german, french, lengths.measure(*value));
   };
   const bool edge = from.counts_to_edge;
   length("HS", "hill size", "Hillsize", "taille du tremplin", hill.size);
@@ -220,53 +261,51 @@ std::vector<Row> certificate_rows(const Design& design, const Track& track, cons
   return rows;
 }
 
-TitleBlock title_of(const Design& design, const std::string& title) {
+TitleBlock title_of(const Design& design, const SheetLengths& lengths, const std::string& title) {
   TitleBlock block;
   block.title = title;
   block.owner = design.name;
-  block.note = "Lengths in metres; x, z from the frame of the design, z up";
-  block.unit = "m";
+  block.note = "Lengths in " + lengths.units_in_words() + "; x, z from the frame of the design, z up";
+  block.unit = lengths.unit();
   return block;
 }
 
 Sheet section_sheet(const Design& design, const Track& track, const ProfileOptions& options) {
   Sheet sheet = blank_sheet(PaperSize::a3);
-  sheet.title = title_of(design, "Longitudinal section / Längsprofil / profil en long");
-  PlaneBox room = drawing_area(sheet);
-  constexpr double kMargin = 30.0;  // [mm] for dimension lines
-  room.low = room.low + Vec2{kMargin, kMargin};
-  room.high = room.high - Vec2{kMargin, kMargin};
-  sheet.views.push_back(fitted_view(longitudinal_section(design, track, options), room));
+  sheet.title = title_of(design, lengths_of(track), "Longitudinal section / Längsprofil / profil en long");
+  const PlaneBox whole = drawing_area(sheet);
+  constexpr double kMargin = 30.0;  // taste [mm]: for dimension lines
+  const PlaneBox room{whole.low + Vec2{kMargin, kMargin}, whole.high - Vec2{kMargin, kMargin}};
+  sheet.views.push_back(fitted_view_with_texts(longitudinal_section(design, track, options), room, whole));
   return sheet;
 }
 
-std::optional<Sheet> cross_section_sheet(const Design& design) {
+std::optional<Sheet> cross_section_sheet(const Design& design, const SheetLengths& lengths) {
   std::optional<Drawing> drawing = cross_section_drawing(design);
   if (!drawing) return {};
   Sheet sheet = blank_sheet(PaperSize::a3);
-  sheet.title = title_of(design, "Cross-section / Querschnitt / profil en travers");
+  sheet.title = title_of(design, lengths, "Cross-section / Querschnitt / profil en travers");
   sheet.title.note = "Millimetres; as seen downhill, the centerline at the cross";
   sheet.title.unit = "mm";
-  PlaneBox room = drawing_area(sheet);
-  constexpr double kMargin = 40.0;  // [mm] for dimension lines
-  room.low = room.low + Vec2{kMargin, kMargin};
-  room.high = room.high - Vec2{kMargin, kMargin};
-  sheet.views.push_back(fitted_view(*std::move(drawing), room));
+  const PlaneBox whole = drawing_area(sheet);
+  constexpr double kMargin = 40.0;  // taste [mm]: for dimension lines
+  const PlaneBox room{whole.low + Vec2{kMargin, kMargin}, whole.high - Vec2{kMargin, kMargin}};
+  sheet.views.push_back(fitted_view_with_texts(*std::move(drawing), room, whole));
   return sheet;
 }
 
-SheetTable gates_sheet_table(const GateTable& gates) {
+SheetTable gates_sheet_table(const GateTable& gates, const SheetLengths& lengths) {
   SheetTable table;
   table.caption = "Gates, speed " + rounded_text(gates.measuring_place, 4) + " m before the edge";
-  table.header = {"gate", "to edge [m]", "x [m]", "z [m]"};
+  table.header = {"gate", lengths.head("to edge"), lengths.head("x"), lengths.head("z")};
   table.widths_mm = {14.0, 22.0, 24.0, 24.0};
   for (const GateCondition& condition : gates.conditions) {
     table.header.push_back(condition.name + " [m/s]");
     table.widths_mm.push_back(30.0);
   }
   for (std::size_t i = 0; i < gates.gates.size(); ++i) {
-    Row row = {std::to_string(gates.gates[i].number), rounded_text(gates.gates[i].to_edge, 6),
-               rounded_text(gates.positions[i].x, 7), rounded_text(gates.positions[i].z, 7)};
+    Row row = {std::to_string(gates.gates[i].number), lengths.place(gates.gates[i].to_edge),
+               lengths.place(gates.positions[i].x), lengths.place(gates.positions[i].z)};
     for (const GateCondition& condition : gates.conditions) {
       const GateRide& ride = condition.rides[i];
       row.push_back(ride.speed_at_measuring_place ? rounded_text(*ride.speed_at_measuring_place, 4) : "-");
@@ -289,27 +328,29 @@ SheetTable rules_sheet_table(const std::vector<Judgement>& judgements) {
   return table;
 }
 
-SheetTable coordinates_sheet_table(const std::vector<ProfileStation>& stations,
-                                   const ProfileOptions& options) {
+SheetTable coordinates_sheet_table(const Design& design, const Track& track, const ProfileOptions& options) {
+  const SheetLengths lengths = lengths_of(track);
+  constexpr int kDecimals = 4;  // taste: of a degree, 0.2 mm over 100 m
   SheetTable table;
   table.caption = "Coordinates";
-  table.header = {"", "s [m]", "to edge [m]", "x [m]", "y [m]", "z [m]", "slope [deg]", "radius [m]"};
+  table.header = {""};
+  for (const char* const column : {"s", "to edge", "x", "y", "z"})
+    table.header.push_back(lengths.head(column));
+  table.header.emplace_back("slope [deg]");
+  table.header.push_back(lengths.head("radius"));
   table.widths_mm = {12.0, 22.0, 22.0, 28.0, 28.0, 28.0, 22.0, 24.0};
   for (const ParallelLine& line : options.parallels) {
-    table.header.push_back(line.name + " x, z [m]");
+    table.header.push_back(lengths.head(line.name + " x, z"));
     table.widths_mm.push_back(46.0);
   }
-  for (const ProfileStation& station : stations) {
-    Row row = {station.name,
-               rounded_text(station.arc_length, 7),
-               rounded_text(station.to_edge, 7),
-               rounded_text(station.position.x, 8),
-               rounded_text(station.position.y, 8),
-               rounded_text(station.position.z, 8),
-               rounded_text(station.slope_angle.degrees(), 6),
-               station.curvature == 0.0 ? "straight" : rounded_text(1.0 / station.curvature, 6)};
-    for (const Vec3& at : station.parallels)
-      row.push_back(rounded_text(at.x, 8) + ", " + rounded_text(at.z, 8));
+  for (const ProfileStation& station : coordinate_table(design, track, options)) {
+    Row row = {station.name};
+    for (const double value :
+         {station.arc_length, station.to_edge, station.position.x, station.position.y, station.position.z})
+      row.push_back(lengths.place(value));
+    row.push_back(fixed_text(station.slope_angle.degrees(), kDecimals));
+    row.push_back(lengths.radius(station.curvature, track.centerline->length()));
+    for (const Vec3& at : station.parallels) row.push_back(lengths.place(at.x) + ", " + lengths.place(at.z));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -319,12 +360,13 @@ SheetTable coordinates_sheet_table(const std::vector<ProfileStation>& stations,
 
 std::vector<Sheet> profile_sheets(const Design& design, const Track& track, const ProfileOptions& options) {
   std::vector<Sheet> sheets = {section_sheet(design, track, options)};
+  const SheetLengths lengths = lengths_of(track);
   const auto add = [&](const std::string& title, SheetTable table) {
-    for (Sheet& sheet : table_sheets(title_of(design, title), PaperSize::a3, std::move(table))) {
+    for (Sheet& sheet : table_sheets(title_of(design, lengths, title), PaperSize::a3, std::move(table))) {
       sheets.push_back(std::move(sheet));
     }
   };
-  if (std::optional<Sheet> sheet = cross_section_sheet(design)) sheets.push_back(*std::move(sheet));
+  if (std::optional<Sheet> sheet = cross_section_sheet(design, lengths)) sheets.push_back(*std::move(sheet));
   if (const auto* const in_run = dynamic_cast<const InRun*>(track.centerline.get())) {
     SheetTable table;
     table.header = {"", "English", "Deutsch", "français", ""};
@@ -333,11 +375,11 @@ std::vector<Sheet> profile_sheets(const Design& design, const Track& track, cons
     table.caption = "In-run";
     add("Parameters / Kenngrössen / paramètres", std::move(table));
   }
-  if (track.gates) add("Start gates / Startluken / portes de départ", gates_sheet_table(*track.gates));
+  if (track.gates)
+    add("Start gates / Startluken / portes de départ", gates_sheet_table(*track.gates, lengths));
   const std::vector<Judgement> judgements = judge_rules(design, track);
   if (!judgements.empty()) add("Rules / Regeln / règles", rules_sheet_table(judgements));
-  add("Coordinates / Koordinaten / coordonnées",
-      coordinates_sheet_table(coordinate_table(design, track, options), options));
+  add("Coordinates / Koordinaten / coordonnées", coordinates_sheet_table(design, track, options));
   return numbered(std::move(sheets));
 }
 

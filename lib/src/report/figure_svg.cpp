@@ -27,6 +27,10 @@ constexpr double kRight = 20.0;
 constexpr double kTop = 38.0;
 constexpr double kBottom = 50.0;
 constexpr double kLegendLine = 20.0;
+constexpr double kLegendSample = 34.0;  // taste: with its gap
+constexpr double kTitleSize = 15.0;     // taste: as the style says
+constexpr double kTitleLine = 19.0;     // taste
+constexpr double kTextSize = 12.0;      // taste: as the style says
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -69,6 +73,48 @@ std::string points_text(const std::vector<double>& xs, const std::vector<double>
   return path;
 }
 
+/// @param first  byte of a character
+/// @return no less than how wide it is over the size of the font, in a bold sans-serif font
+double width_of(char first) {
+  // All measured: DejaVu Sans Bold, the widest of the usual ones.
+  constexpr std::string_view kNarrow = " !'(),-./:;I[]fijlrt|";
+  constexpr std::string_view kWide = "#%&+<=>@MW^mw~";
+  const auto byte = static_cast<unsigned char>(first);
+  if (kNarrow.find(first) != std::string_view::npos) return 0.5;
+  if (kWide.find(first) != std::string_view::npos) return 1.11;
+  if (byte >= 0x80) return byte == 0xC3 ? 1.09 : 1.2;  // the letters of western Europe, and all others
+  return first >= 'A' && first <= 'Z' ? 0.86 : 0.73;
+}
+
+std::size_t bytes_of(char first) {
+  const auto byte = static_cast<unsigned char>(first);
+  return byte < 0xC0 ? 1 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : 4;
+}
+
+/// @return a text as lines that fit a room, broken between words, a longer word between its characters
+std::vector<std::string> lines_within(const std::string& text, double size, double room) {
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  std::optional<std::size_t> gap;
+  double width = 0.0;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == ' ' && i > begin) gap = i;
+    width += size * width_of(text[i]);
+    if (width > room && i > begin) {
+      const std::size_t end = gap.value_or(i);
+      lines.push_back(text.substr(begin, end - begin));
+      begin = gap ? end + 1 : end;
+      i = begin;
+      gap.reset();
+      width = 0.0;
+      continue;
+    }
+    i += std::min(bytes_of(text[i]), text.size() - i);
+  }
+  lines.push_back(text.substr(begin));
+  return lines;
+}
+
 /// One panel, laid out for a given width; its top edge is at y = 0.
 class Panel {
  public:
@@ -83,23 +129,28 @@ class Panel {
     widen(y_);
     inner_width_ = width - kLeft - kRight;
     inner_height_ = 0.42 * width;
+    constexpr double kClear = 6.0;  // taste
+    title_ = lines_within(figure.title, kTitleSize, width - kLeft - kClear);
+    top_ = kTop + kTitleLine * static_cast<double>(title_.size() - 1);
     if (figure.to_scale) fit_scale();
   }
 
   [[nodiscard]] double height() const {
-    return kTop + inner_height_ + kBottom + kLegendLine * legend_rows() + 8.0;
+    return top_ + inner_height_ + kBottom + kLegendLine * legend_rows() + 8.0;
   }
 
   [[nodiscard]] std::string svg(double top) const {
     std::string text = fmt::format("<g transform=\"translate(0 {:.2f})\" role=\"group\" aria-label=\"{}\">\n",
                                    top, escaped_markup(figure_.title));
-    text += fmt::format("<text class=\"title\" x=\"{:.2f}\" y=\"22\">{}</text>\n", kLeft,
-                        escaped_markup(figure_.title));
+    for (std::size_t i = 0; i < title_.size(); ++i) {
+      text += fmt::format("<text class=\"title\" x=\"{:.2f}\" y=\"{:.0f}\">{}</text>\n", kLeft,
+                          22.0 + kTitleLine * static_cast<double>(i), escaped_markup(title_[i]));
+    }
     text += axes();
     text += fmt::format(
         "<svg x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" overflow=\"hidden\" "
         "viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\">\n",
-        kLeft, kTop, inner_width_, inner_height_, kLeft, kTop, inner_width_, inner_height_);
+        kLeft, top_, inner_width_, inner_height_, kLeft, top_, inner_width_, inner_height_);
     const auto to_x = [this](double x) { return at_x(x); };
     const auto to_y = [this](double y) { return at_y(y); };
     for (const FigureArea& area : figure_.areas) {
@@ -158,11 +209,11 @@ class Panel {
   }
 
   [[nodiscard]] double at_x(double x) const { return kLeft + inner_width_ * (x - x_.low) / x_.span(); }
-  [[nodiscard]] double at_y(double y) const { return kTop + inner_height_ * (y_.high - y) / y_.span(); }
+  [[nodiscard]] double at_y(double y) const { return top_ + inner_height_ * (y_.high - y) / y_.span(); }
 
   [[nodiscard]] std::string axes() const {
     const double right = kLeft + inner_width_;
-    const double bottom = kTop + inner_height_;
+    const double bottom = top_ + inner_height_;
     std::string text;
     const double x_step = round_step(x_.span(), inner_width_ / 90.0);
     for (double k = std::ceil(x_.low / x_step); k * x_step <= x_.high; ++k) {
@@ -170,7 +221,7 @@ class Panel {
       text += fmt::format(
           "<path class=\"grid\" d=\"M{0:.2f} {1:.2f}V{2:.2f}\"/><text x=\"{0:.2f}\" y=\"{3:.2f}\" "
           "text-anchor=\"middle\">{4}</text>\n",
-          x, kTop, bottom, bottom + 18.0, rounded_text(tick(k, x_step), 6));
+          x, top_, bottom, bottom + 18.0, rounded_text(tick(k, x_step), 6));
     }
     const double y_step = round_step(y_.span(), inner_height_ / 50.0);
     for (double k = std::ceil(y_.low / y_step); k * y_step <= y_.high; ++k) {
@@ -182,12 +233,12 @@ class Panel {
     }
     text +=
         fmt::format("<rect class=\"frame\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/>\n",
-                    kLeft, kTop, inner_width_, inner_height_);
+                    kLeft, top_, inner_width_, inner_height_);
     text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"middle\">{}</text>\n",
                         0.5 * (kLeft + right), bottom + 40.0, escaped_markup(figure_.x_label));
     text +=
         fmt::format("<text transform=\"translate(18 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                    0.5 * (kTop + bottom), escaped_markup(figure_.y_label));
+                    0.5 * (top_ + bottom), escaped_markup(figure_.y_label));
     return text;
   }
 
@@ -226,7 +277,7 @@ class Panel {
     return entries;
   }
 
-  /// Places legend entries left to right, top to bottom; returns the rows, and calls `place` for each entry.
+  /// Places legend entries left to right, top to bottom; returns the rows, and calls `place` for each line of an entry.
   int lay_out_legend(auto&& place) const {
     double x = 0.0;
     int row = 0;
@@ -237,27 +288,35 @@ class Panel {
         x = 0.0;
         ++row;
       }
-      place(entry, kLeft + x, row);
-      x += needed;
+      const std::vector<std::string> lines =
+          lines_within(*entry.name, kTextSize, inner_width_ - kLegendSample);
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (i > 0) ++row;
+        place(entry, kLeft + x, row, i == 0, lines[i]);
+      }
+      x += lines.size() > 1 ? inner_width_ : needed;
     }
     return entries.empty() ? 0 : row + 1;
   }
 
   [[nodiscard]] int legend_rows() const {
-    return lay_out_legend([](const LegendEntry&, double, int) {});
+    return lay_out_legend([](const LegendEntry&, double, int, bool, const std::string&) {});
+  }
+
+  [[nodiscard]] std::string sample(const LegendEntry& entry, double x, double y) const {
+    return entry.line ? fmt::format(R"(<path class="line{}" {} d="M{:.2f} {:.2f}h28"/>)",
+                                    choice_class(figure_.lines[*entry.line]), stroke(*entry.line), x, y - 4.0)
+                      : fmt::format(R"(<path class="area" d="M{:.2f} {:.2f}h28v10h-28Z"/>)", x, y - 9.0);
   }
 
   [[nodiscard]] std::string legend() const {
     std::string text;
-    const double top = kTop + inner_height_ + kBottom + 12.0;
-    lay_out_legend([&](const LegendEntry& entry, double x, int row) {
+    const double top = top_ + inner_height_ + kBottom + 12.0;
+    lay_out_legend([&](const LegendEntry& entry, double x, int row, bool first, const std::string& words) {
       const double y = top + kLegendLine * row;
-      text += entry.line
-                  ? fmt::format(R"(<path class="line{}" {} d="M{:.2f} {:.2f}h28"/>)",
-                                choice_class(figure_.lines[*entry.line]), stroke(*entry.line), x, y - 4.0)
-                  : fmt::format(R"(<path class="area" d="M{:.2f} {:.2f}h28v10h-28Z"/>)", x, y - 9.0);
-      text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + 34.0, y,
-                          escaped_markup(*entry.name));
+      if (first) text += sample(entry, x, y);
+      text += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", x + kLegendSample, y,
+                          escaped_markup(words));
     });
     return text;
   }
@@ -266,6 +325,8 @@ class Panel {
   double width_;
   Range x_;
   Range y_;
+  std::vector<std::string> title_;
+  double top_ = kTop;  // of the axes
   double inner_width_ = 0.0;
   double inner_height_ = 0.0;
 };

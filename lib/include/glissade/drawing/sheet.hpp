@@ -63,9 +63,13 @@ struct Sheet {
 /// @return the room that frame and title block leave for views [mm]
 [[nodiscard]] PlaneBox drawing_area(const Sheet& sheet);
 
-/// Puts a drawing into a rectangle of the paper, in its middle, at the largest scale of ISO 5455 that fits (1:1, 1:2, 1:5,
-/// 1:10, 1:20, ... and enlargements 2:1 to 50:1).
+/// Puts a drawing into a rectangle of the paper, in its middle, at the largest scale of ISO 5455 at which its paths and circles fit
+/// (1:1, 1:2, 1:5, 1:10, 1:20, ... and enlargements 2:1, 5:1, 10:1, ...; the series goes on to 1e20 both ways). 1:1 of one without
+/// a size.
 [[nodiscard]] SheetView fitted_view(Drawing drawing, const PlaneBox& room, std::string caption = "");
+
+/// The same, or as much smaller as it takes for its texts and dimensions, whose size on paper stays, to lie within `outer`.
+[[nodiscard]] SheetView fitted_view_with_texts(Drawing drawing, const PlaneBox& room, const PlaneBox& outer);
 
 /// @return "1:20", "2:1"
 [[nodiscard]] std::string scale_text(double scale);

@@ -32,26 +32,58 @@ function setStyle(node, name, value) {
   if (plain) node.style.setProperty(`${name}-opacity`, plain.opacity);
 }
 
-const HEADING = 46;
 const FONT = "system-ui, sans-serif";
+export const TITLE_LINE = 16;
+const LEGEND_LINE = 18;
+const MARGIN = 16;
 
-// A title over a drawing, and a sample of each kind of line and area in it with its name.
-function heading(copy, { title, legend }) {
+function penOf(weight) {
   const pen = document.createElement("canvas").getContext("2d");
-  pen.font = `12px ${FONT}`;
+  pen.font = `${weight} 12px ${FONT}`;
+  return pen;
+}
+
+// The lines of a title, none wider than its room [px]; a word that is wider than that is cut.
+export function titleLines(title, room) {
+  const pen = penOf(600);
+  const lines = [];
+  let line = "";
+  for (const piece of title.split(/(?<= )/)) {
+    if (line && pen.measureText((line + piece).trimEnd()).width > room) {
+      lines.push(line.trimEnd());
+      line = "";
+    }
+    for (const character of piece) {
+      if (line && pen.measureText((line + character).trimEnd()).width > room) {
+        lines.push(line);
+        line = "";
+      }
+      line += character;
+    }
+  }
+  return [...lines, line];
+}
+
+// A title over a drawing of that width, and a sample of each kind of line and area in it with its name.
+// @return {nodes, height}, from its own upper left corner
+function heading(copy, { title, legend }, width) {
+  const pen = penOf(400);
   const text = (x, y, value, attributes) => svgElement("text", { x, y, "font-family": FONT, "font-size": 12, fill: themeColour("--ink"), ...attributes }, value);
-  const nodes = [text(16, 18 - HEADING, title, { "font-weight": 600 })];
-  let x = 16;
+  const titles = titleLines(title, width - 2 * MARGIN);
+  const nodes = titles.map((line, i) => text(MARGIN, 18 + TITLE_LINE * i, line, { "font-weight": 600 }));
+  let [x, y] = [MARGIN, 35 + TITLE_LINE * (titles.length - 1)];
   for (const [selector, name] of legend) {
     const drawn = copy.querySelector(`[data-line="${selector}"]`);
     if (!drawn) continue;
+    const needed = 28 + pen.measureText(name).width;
+    if (x > MARGIN && x + needed > width - MARGIN) [x, y] = [MARGIN, y + LEGEND_LINE];
     const area = drawn.tagName === "polygon";
-    const sample = area ? svgElement("rect", { x, y: 29 - HEADING, width: 22, height: 12 }) : svgElement("line", { x1: x, x2: x + 22, y1: 35 - HEADING, y2: 35 - HEADING });
+    const sample = area ? svgElement("rect", { x, y: y - 6, width: 22, height: 12 }) : svgElement("line", { x1: x, x2: x + 22, y1: y, y2: y });
     sample.setAttribute("style", drawn.getAttribute("style"));
-    nodes.push(sample, text(x + 28, 39 - HEADING, name));
-    x += 28 + pen.measureText(name).width + 20;
+    nodes.push(sample, text(x + 28, y + 4, name));
+    x += needed + 20;
   }
-  return nodes;
+  return { nodes, height: y + 11 };
 }
 
 // A copy of a drawing that stands alone: what the page's styles say is written into it, on the page's own paper.
@@ -71,9 +103,10 @@ export function standAlone(svg, caption = null) {
   copy.querySelectorAll("[data-screen-only]").forEach((node) => node.remove());
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
   const box = svg.viewBox.baseVal;
-  const [width, top] = [box.width, caption ? HEADING : 0];
+  const { width } = box;
+  const { nodes, height: top } = caption ? heading(copy, caption, width) : { nodes: [], height: 0 };
   const height = box.height + top;
-  if (caption) copy.append(...heading(copy, caption));
+  if (caption) copy.append(svgElement("g", { transform: `translate(${box.x} ${box.y - top})` }, nodes));
   for (const [name, value] of Object.entries({ width, height, viewBox: `${box.x} ${box.y - top} ${width} ${height}` })) copy.setAttribute(name, value);
   copy.prepend(svgElement("rect", { x: box.x, y: box.y - top, width, height, fill: themeColour("--panel") }));
   return { svg: new XMLSerializer().serializeToString(copy), width, height };

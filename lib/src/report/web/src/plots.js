@@ -1,7 +1,7 @@
 import uPlot from "uplot";
 import { radiusOf } from "./data.js";
 import { button, element, section, select, svgElement, themeColour } from "./dom.js";
-import { exportButtons } from "./export.js";
+import { TITLE_LINE, exportButtons, titleLines } from "./export.js";
 import { columnText, tickTexts } from "./units.js";
 
 const SYNC = "glissade";
@@ -192,8 +192,11 @@ class Chart {
   file() {
     const { plot, chart, doc } = this;
     const { width, height } = plot.over.getBoundingClientRect();
-    const [left, top] = [Number.parseFloat(plot.over.style.left), Number.parseFloat(plot.over.style.top) + 22];
-    const whole = { width: plot.width, height: plot.height + 22 };
+    const left = Number.parseFloat(plot.over.style.left);
+    const titles = titleLines(`${doc.design.name}: ${chart.title.toLowerCase()}`, plot.width - left - 8);
+    const more = TITLE_LINE * (titles.length - 1);
+    const top = Number.parseFloat(plot.over.style.top) + 22 + more;
+    const whole = { width: plot.width, height: plot.height + 22 + more };
     const ink = themeColour("--ink");
     const soft = themeColour("--ink-soft");
     const font = { "font-family": "system-ui, sans-serif", "font-size": 12, fill: soft };
@@ -228,10 +231,10 @@ class Chart {
     // A range of friction: which one the thick line is of, and what lies beside it.
     const banded = chart.band && this.store.get("axis") !== "time_s";
     const friction = doc.rides.length < 2 ? null
-      : text({ x: left, y: 32, "font-size": 11 }, `at ${doc.ride.friction ?? "nominal"} friction${banded ? "; dashed: low and high friction" : ""}`);
+      : text({ x: left, y: 32 + more, "font-size": 11 }, `at ${doc.ride.friction ?? "nominal"} friction${banded ? "; dashed: low and high friction" : ""}`);
     const svg = svgElement("svg", { xmlns: "http://www.w3.org/2000/svg", ...whole, viewBox: `0 0 ${whole.width} ${whole.height}` },
       svgElement("rect", { ...whole, fill: themeColour("--panel") }),
-      text({ x: left, y: 16, fill: ink, "font-weight": 600 }, `${doc.design.name}: ${chart.title.toLowerCase()}`), friction ?? "",
+      titles.map((title, i) => text({ x: left, y: 16 + TITLE_LINE * i, fill: ink, "font-weight": 600 }, title)), friction ?? "",
       clip, ticks, svgElement("rect", { x: left, y: top, width, height, fill: "none", stroke: themeColour("--grid") }), curves, legend,
       text({ x: left + width / 2, y: top + height + 38, "text-anchor": "middle" }, across.label),
       text({ transform: `translate(14 ${top + height / 2}) rotate(-90)`, "text-anchor": "middle" }, up.label));
