@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "profile_cost.hpp"
 #include "profile_description.hpp"
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -715,7 +715,7 @@ FittedCurve best_of_ways(const std::vector<Vec2>& points, const std::optional<La
 double beyond_vertical(const ClothoidSpline& curve) {
   double most = std::fabs(curve.slope_angle(0.0));
   for (const double s : curve.breaks()) most = std::max(most, std::fabs(curve.slope_angle(s)));
-  return most - 0.5 * std::numbers::pi;
+  return most - kRightAngle;
 }
 
 // Less is rounding, or noise beside a vertical start; more, that the order of the points is lost in their noise.
@@ -796,7 +796,7 @@ std::vector<double> parts_at(double slope, const ClothoidSegment& segment) {
   std::vector<double> parts = {0.0, 1.0};
   const double turn = segment.entry_curvature * segment.length;
   const double change = 0.5 * (segment.exit_curvature - segment.entry_curvature) * segment.length;
-  for (const double limit : {0.5 * std::numbers::pi, -0.5 * std::numbers::pi}) {
+  for (const double limit : {kRightAngle, -kRightAngle}) {
     // slope - turn u - change u^2 = limit, by the root that loses no digits
     const double rest = slope - limit;
     const double square = turn * turn + 4.0 * change * rest;
@@ -811,7 +811,6 @@ std::vector<double> parts_at(double slope, const ClothoidSegment& segment) {
 
 /// The curve with a vertical straight in place of what overhangs, moved so that the rest stays where most of it was.
 FittedCurve not_overhanging(FittedCurve found) {
-  constexpr double kVertical = 0.5 * std::numbers::pi;
   if (beyond_vertical(found.curve) <= 0.0) return found;
   const double entry = found.curve.slope_angle(0.0);
   std::vector<ClothoidSegment> segments;
@@ -829,7 +828,7 @@ FittedCurve not_overhanging(FittedCurve found) {
                            whole.entry_curvature + change * parts[k],
                            whole.entry_curvature + change * parts[k + 1]};
       if (!(part.length > 0.0)) continue;
-      if (std::fabs(here) > kVertical) {
+      if (std::fabs(here) > kRightAngle) {
         part.entry_curvature = part.exit_curvature = 0.0;
         overhanging += part.length * (s + u * whole.length);
         length += part.length;
@@ -839,7 +838,8 @@ FittedCurve not_overhanging(FittedCurve found) {
     slope -= 0.5 * (whole.entry_curvature + whole.exit_curvature) * whole.length;
     s += whole.length;
   }
-  ClothoidSpline curve(Angle::from_radians(std::clamp(entry, -kVertical, kVertical)), std::move(segments));
+  ClothoidSpline curve(Angle::from_radians(std::clamp(entry, -kRightAngle, kRightAngle)),
+                       std::move(segments));
   if (overhanging < 0.5 * s * length) {
     const CenterlinePoint before = found.curve.at(found.curve.length());
     const CenterlinePoint after = curve.at(curve.length());
