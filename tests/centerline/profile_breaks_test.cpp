@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <numeric>
 #include <vector>
 
 using namespace glissade;
@@ -36,6 +38,49 @@ std::vector<KnownProfile> profiles() {
           "clothoid, arc, clothoid", 40.0,
           {{30.0, 0.0, 0.0}, {10.0, 0.0, 0.025}, {15.0, 0.025, 0.025}, {10.0, 0.025, 0.0}, {10.0, 0.0, 0.0}}),
   };
+}
+
+/// Straights one after the other, each flatter than the one before.
+struct Polygon {
+  std::vector<double> slopes;  // [rad]
+  std::vector<double> lengths;
+
+  [[nodiscard]] double length() const { return std::accumulate(lengths.begin(), lengths.end(), 0.0); }
+  [[nodiscard]] std::vector<Vec2> points(int count) const {
+    std::vector<Vec2> all;
+    for (int i = 0; i < count; ++i) {
+      double left = length() * i / (count - 1);
+      Vec2 place;
+      for (std::size_t k = 0; k < slopes.size() && left > 0.0; left -= lengths[k++]) {
+        const double along = std::min(left, lengths[k]);
+        place = place + Vec2{along * std::cos(slopes[k]), along * std::sin(slopes[k])};
+      }
+      all.push_back(place);
+    }
+    return all;
+  }
+};
+
+/// With 1 to 3 kinks of 2 to 40 degrees.
+Polygon random_polygon(Random& random) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  Polygon drawn;
+  do {
+    drawn = {{random.between(35.0, 70.0) * kDegree}, {random.between(1.0, 4.0)}};
+    for (int i = random.integer(1, 3); i > 0; --i) {
+      drawn.slopes.push_back(drawn.slopes.back() -
+                             std::exp(random.between(std::log(2.0), std::log(40.0))) * kDegree);
+      drawn.lengths.push_back(random.between(1.0, 4.0));
+    }
+  } while (drawn.slopes.back() < 8.0 * kDegree);
+  return drawn;
+}
+
+std::vector<Vec2> rounded(std::vector<Vec2> points, double place) {
+  if (place == 0.0) return points;
+  for (Vec2& point : points)
+    point = {place * std::nearbyint(point.x / place), place * std::nearbyint(point.y / place)};
+  return points;
 }
 
 }  // namespace
@@ -108,6 +153,86 @@ TEST_CASE("random tracks of arcs and straights come back from exact points") {
     const FittedProfile profile(points_of(known, count, 0.0, random));
     CHECK(testing::smallest_valley_radius(profile.curve()) == Approx(known.smallest_radius).epsilon(1e-6));
     CHECK(profile.max_deviation() < 1e-9 * known.length);
+  }
+}
+
+TEST_CASE("straights that meet in valleys have kinks there and no crest, however many points show them") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int trials = testing::thorough() ? 60 : 16;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Polygon drawn = random_polygon(random);
+    const int count = static_cast<int>(std::exp(random.between(std::log(40.0), std::log(2000.0))));
+    // As computed, as programs write it, and as people round it.
+    constexpr double kMicron = 1e-6;
+    constexpr double kTenth = 1e-4;
+    const double place = std::vector<double>{0.0, 0.0, kMicron, kTenth}[static_cast<std::size_t>(trial) % 4];
+    INFO("trial " << trial << ", " << count << " points, rounded to " << place << " m, "
+                  << drawn.slopes.size() << " straights");
+    const auto profile = std::make_shared<const FittedProfile>(rounded(drawn.points(count), place));
+    const double allowed = 1e-9 + 300.0 * place / drawn.length();
+    double steepest = -1.0;
+    double flattest = 2.0;
+    double before = 2.0;
+    double rise = 0.0;  // of the slope angle along the track: a crest
+    for (const double s : profile->breaks()) {
+      const double slope = profile->slope_angle(s);
+      steepest = std::max(steepest, slope);
+      flattest = std::min(flattest, slope);
+      rise = std::max(rise, slope - before);
+      before = slope;
+    }
+    CHECK(steepest <= drawn.slopes.front() + allowed);
+    CHECK(flattest >= drawn.slopes.back() - allowed);
+    CHECK(rise <= allowed);
+    CHECK(Motion(profile, {Friction::from_coefficient(0.05), 0.0, 1.0}).arrived());
+    if (place > 0.0) continue;
+    CHECK(profile->curve().segments().size() == 2 * drawn.slopes.size() - 1);
+    CHECK(profile->max_deviation() < 1e-7 * drawn.length());
+    // Between the points beside a kink the bend may be any: that is told.
+    CHECK(profile->largest_curvature().has_value());
+  }
+}
+
+TEST_CASE("a point in the kink itself makes it one: as sharp as curves can be, and met") {
+  for (const int count : {21, 41, 201, 1001}) {
+    const Polygon drawn{{0.7, 0.3}, {5.0, 5.0}};
+    INFO(count << " points");
+    const auto profile = std::make_shared<const FittedProfile>(drawn.points(count));
+    CHECK(profile->max_deviation() < 1e-7 * drawn.length());
+    CHECK(testing::smallest_valley_radius(profile->curve()) < 1e-6 * drawn.length());
+    CHECK(Motion(profile, {Friction::from_coefficient(0.1), 0.0, 0.0}).arrived());
+  }
+}
+
+TEST_CASE(
+    "points of a cycloid crowd at its vertical start: noise makes them neither coil nor begin elsewhere") {
+  Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  constexpr double kRadius = 2.0;
+  constexpr double kPhase = 2.6;
+  const double speed = std::sqrt(2.0 * kDefaultGravity * kRadius * (1.0 - std::cos(kPhase)));
+  const int trials = testing::thorough() ? 40 : 7;
+  for (int trial = 0; trial < trials; ++trial) {
+    const int count = std::vector<int>{2000, 3000, 500}[static_cast<std::size_t>(trial) % 3];
+    const double noise = std::vector<double>{3e-3, 1e-3}[static_cast<std::size_t>(trial) % 2];
+    INFO("trial " << trial << ", " << count << " points, noise " << noise << " m");
+    std::vector<Vec2> points;
+    for (int i = 0; i < count; ++i) {
+      const double phase = kPhase * i / (count - 1);
+      points.push_back({kRadius * (phase - std::sin(phase)) + noise * testing::bell(random),
+                        kRadius * (1.0 - std::cos(phase)) + noise * testing::bell(random)});
+    }
+    const auto profile = std::make_shared<const FittedProfile>(points);
+    double most = std::fabs(profile->slope_angle(0.0));
+    for (const double s : profile->breaks()) most = std::max(most, std::fabs(profile->slope_angle(s)));
+    CHECK(most <= std::numbers::pi / 2.0);
+    CHECK(profile->slope_angle(0.0) > 1.35);
+    CHECK(profile->rms_deviation() == Approx(noise).epsilon(0.3));
+    const Motion motion(profile, {Friction(), 0.0, 0.0});
+    REQUIRE(motion.arrived());
+    CHECK(motion.exit_speed() == Approx(speed).epsilon(2e-3));
+    CHECK(motion.travel_time() == Approx(kPhase * std::sqrt(kRadius / kDefaultGravity)).epsilon(0.02));
   }
 }
 

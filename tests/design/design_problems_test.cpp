@@ -601,6 +601,35 @@ TEST_CASE("the file of a profile is found beside the design file") {
   CHECK_THAT(problems_with("{kind: fastest}", "{kind: points}"), Contains("file is missing"));
 }
 
+TEST_CASE("no column of a file is two numbers") {
+  for (const char* const columns :
+       {"[x, x]", "[z, z]", "[x, z, z, k]", "[x, z, a, x]", "[x, z, a, a]", "[a, z, x, x]"}) {
+    INFO(columns);
+    CHECK_THAT(problems_with("{kind: fastest}",
+                             "{kind: points, file: p.csv, columns: " + std::string(columns) + "}"),
+               Contains("is named twice") && Contains("columns: "));
+    if (std::string(columns).size() > 6) continue;
+    CHECK_THAT(problems_with("mesh:", "limits: {stay_above: [{file: p.csv, columns: " + std::string(columns) +
+                                          "}]}\nmesh:"),
+               Contains("is named twice"));
+  }
+}
+
+TEST_CASE("tracks that are drawn have their ends as far apart as others") {
+  const auto problem = [](const std::string& segments) {
+    return problems_of(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}}\nbody: {friction_angle: 5 deg}\n"
+        "centerline: {kind: segments, entry_slope_angle: 30 deg, segments: [" +
+        segments + "]}\n");
+  };
+  CHECK(problem("{length: 1 mm}") == "");
+  CHECK_THAT(problem("{length: 1e-9 m}"), Contains("the segments end ") &&
+                                              Contains("from where they begin") &&
+                                              Contains("between 0.1 mm and 1000 km apart"));
+  CHECK_THAT(problem("{length: 900 km}, {length: 900 km}"),
+             Contains("the segments end ") && Contains("between 0.1 mm and 1000 km apart"));
+}
+
 TEST_CASE("a design that was not read from a file is checked too, by key paths") {
   Design design = parse_design(kSoundDesign, "d.yaml");
   design.file.clear();

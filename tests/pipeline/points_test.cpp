@@ -81,3 +81,13 @@ TEST_CASE("a point that lies far off the others is named, with its place and by 
                               Contains("that point looked at again, and left out if it is a slip"));
   CHECK_THAT(warned(0.0), !Contains("the curve misses point"));
 }
+
+TEST_CASE("points whose ends are too near or too far are refused before anything is fitted to them") {
+  for (const char* const points : {"0,0\n1e-9,-1e-9\n2e-9,-1.5e-9\n3e-9,-1.6e-9\n",
+                                   "0,0\n1000000,-300000\n2000000,-500000\n3000000,-600000\n"}) {
+    INFO(points);
+    CHECK_THROWS_WITH(radius_of("x,z\n" + std::string(points), "[x, z]"),
+                      Contains("site.csv:5: the points end ") && Contains("from where they begin") &&
+                          Contains("between 0.1 mm and 1000 km apart") && Contains("Try: the unit"));
+  }
+}

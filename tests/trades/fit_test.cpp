@@ -155,7 +155,49 @@ TEST_CASE("no friction is negative: what would fit better is said") {
   const SpeedFit fit = fit_speeds(fast, skier(0.0, 0.0), {{}, 0.001});
   CHECK(fit.friction == 0.0);
   CHECK(fit.friction_at_bound);
-  CHECK_FALSE(fit.friction_uncertainty.has_value());
+  CHECK(fit.friction_uncertainty.has_value());
+}
+
+TEST_CASE(
+    "where friction or drag ends at none the other one is told as badly as both are, and the truth lies "
+    "there") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  struct Truth {
+    double friction;
+    double drag;
+    double error;
+  };
+  constexpr int kFits = 25;
+  constexpr double kDeviations = 3.0;  // theory: few readings, whose scatter tells their noise badly
+  for (const Truth& truth : {Truth{0.0, 0.0013, 0.1}, Truth{0.002, 0.0013, 0.05}, Truth{0.05, 0.0001, 0.1}}) {
+    CAPTURE(truth.friction, truth.drag, truth.error);
+    int at_bound = 0;
+    int within = 0;
+    for (int i = 0; i < kFits; ++i) {
+      const std::vector<SpeedReading> readings =
+          readings_of(skier(truth.friction, truth.drag), truth.error, random);
+      const SpeedFit fit = fit_speeds(readings, skier(0.0, 0.0));
+      REQUIRE(fit.friction_uncertainty.has_value());
+      REQUIRE(fit.drag_uncertainty.has_value());
+      CHECK(fit.friction_at_bound == (fit.friction == 0.0));
+      CHECK(fit.drag_at_bound == (fit.drag == 0.0));
+      // No neighbour that is allowed fits better.
+      for (const double more : {-1e-4, 1e-4}) {
+        const double friction = std::max(fit.friction + more, 0.0);
+        const double drag = std::max(fit.drag + 0.01 * more, 0.0);
+        CHECK(rms_of(speed_residuals(readings, skier(friction, fit.drag))) >= fit.rms * (1.0 - 1e-9));
+        CHECK(rms_of(speed_residuals(readings, skier(fit.friction, drag))) >= fit.rms * (1.0 - 1e-9));
+      }
+      if (!fit.friction_at_bound && !fit.drag_at_bound) continue;
+      ++at_bound;
+      within += static_cast<int>(std::fabs(fit.friction - truth.friction) <=
+                                     kDeviations * *fit.friction_uncertainty &&
+                                 std::fabs(fit.drag - truth.drag) <= kDeviations * *fit.drag_uncertainty);
+    }
+    CHECK(at_bound > 0);
+    CHECK(within >= at_bound - 1 - at_bound / 10);
+  }
 }
 
 TEST_CASE(
@@ -205,7 +247,9 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
   CHECK_THAT(problem_of("length_m,speed_km_h\n120,85\n", "hills/garmisch_hs142.yaml"),
              Contains("length_m: 120 m is no length of this in-run") && Contains("102.9 m long"));
   CHECK_THAT(problem_of("length_m,speed_km_h\n90,-3\n", "hills/garmisch_hs142.yaml"),
-             Contains("the speed is not positive"));
+             Contains("speeds.csv:2: speed_km_h: -3 is not positive") && !Contains("before_edge_m"));
+  CHECK_THAT(problem_of("gate,speed_m_per_s\n1,0\n", "hills/garmisch_hs142.yaml"),
+             Contains("speeds.csv:2: speed_m_per_s: 0 is not positive"));
   CHECK_THAT(problem_of("length_m,speed_km_h,before_edge_m\n90,85,97\n", "hills/garmisch_hs142.yaml"),
              Contains("measured 97 m before the edge"));
   CHECK_THAT(problem_of("gate,speed\n1,85\n", "hills/garmisch_hs142.yaml"),

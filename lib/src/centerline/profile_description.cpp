@@ -6,6 +6,7 @@
 
 #include "profile_fit.hpp"
 #include "profile_partition.hpp"
+#include "profile_straights.hpp"
 
 #include <algorithm>
 #include <array>
@@ -767,16 +768,26 @@ class Descriptions {
     describer.simplify_all();
     describer.reshape();
     describer.simplify_all();
-    PieceFit fit(points_, placed.places, describer.profile());
-    fit.relax(0.0, kMostRounds);
-    if (winds(fit.profile()) || (best_ && score(fit) >= score(*best_))) return;
-    best_ = std::move(fit);
-    ++changes_;
+    keep_if_better(PieceFit(points_, placed.places, describer.profile()));
+  }
+
+  /// Tries straights that meet at angles, as the points themselves show them.
+  void add_straights(const PlacedPoints& placed, double scatter) {
+    constexpr double kBeyondNoise = 4.5;  // theory: standard deviations, of some 100 000 points one
+    const auto straights = straights_through(points_, kBeyondNoise * scatter);
+    if (straights) keep_if_better(PieceFit(points_, placed.places, straights->profile));
   }
   /// How often a better one was found.
   [[nodiscard]] std::size_t changes() const { return changes_; }
 
  private:
+  void keep_if_better(PieceFit fit) {
+    fit.relax(0.0, kMostRounds);
+    if (winds(fit.profile()) || (best_ && score(fit) >= score(*best_))) return;
+    best_ = std::move(fit);
+    ++changes_;
+  }
+
   /// The Bayesian information criterion.
   [[nodiscard]] double score(const PieceFit& fit) const {
     const auto count = static_cast<double>(points_.size());
@@ -823,6 +834,7 @@ std::optional<Description> describe_in_pieces(const std::vector<Vec2>& points,
     descriptions.add(nearer, again, std::max(seen, kLeastScatterAtLast * nearer.length()));
   };
   descriptions.add(reference, placed, std::max(scatter, coarse));
+  if (scattered) descriptions.add_straights(placed, scatter / share);
   add_beside_best();
   const std::size_t seen_best = descriptions.changes();
   if (scatter < coarse && !descriptions.as_good_as_noise()) {

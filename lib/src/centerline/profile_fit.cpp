@@ -3,15 +3,18 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/units.hpp"
 
 #include "profile_cost.hpp"
 #include "profile_description.hpp"
 #include "profile_interpolant.hpp"
 #include "profile_model.hpp"
 #include "profile_seen.hpp"
+#include "profile_straights.hpp"
 #include "rounded_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -53,6 +56,54 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points, std::size_t most) {
   }
   means.push_back(points.back());
   return means;
+}
+
+/// What points show of their noise, standard deviation [m].
+double noise_of(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places) {
+  const auto scatter = scatter_beside_neighbours(points);
+  const double rounding = places ? std::sqrt(noise_of_rounding(points, *places)) : 0.0;
+  return std::max(scatter ? scatter->quarter : 0.0, rounding);
+}
+
+/// How many points from one on lie so close together that the way from the first to the last of them is lost in noise: the
+/// mean of them is within this reach of that of as many behind them.
+std::size_t lost_from(const std::vector<Vec2>& points, std::size_t first, double reach) {
+  constexpr std::size_t kFewest = 4;  // taste: the mean of fewer is hardly better than the first of them
+  constexpr std::size_t kPart = 8;    // taste: of all points
+  const auto mean = [&](std::size_t from, std::size_t to) {
+    Vec2 sum;
+    for (std::size_t i = from; i < to; ++i) sum = sum + (points[i] - points[first]);
+    return (1.0 / static_cast<double>(to - from)) * sum;
+  };
+  std::size_t count = 1;
+  for (std::size_t half = kFewest; half * kPart <= points.size(); half *= 2) {
+    if (first + 2 * half > points.size()) break;
+    if (norm(mean(first, first + half) - mean(first + half, first + 2 * half)) <= reach) count = half;
+  }
+  return count;
+}
+
+/// The points with those as one that noise hides the order of: at both ends, or all along.
+std::vector<Vec2> with_order_told(const std::vector<Vec2>& points, double reach, bool all_along) {
+  std::vector<Vec2> told;
+  for (std::size_t from = 0; from < points.size();) {
+    const std::size_t count = from == 0 || all_along ? lost_from(points, from, reach) : 1;
+    Vec2 sum;
+    for (std::size_t i = from; i < from + count; ++i) sum = sum + (points[i] - points[from]);
+    told.push_back(points[from] + (1.0 / static_cast<double>(count)) * sum);
+    from += count;
+  }
+  return told;
+}
+
+/// The points with those at both ends as one.
+std::vector<Vec2> with_ends_told(const std::vector<Vec2>& points, double reach) {
+  std::vector<Vec2> told = points;
+  for (int end = 0; end < 2; ++end) {
+    told = with_order_told(told, reach, false);
+    std::reverse(told.begin(), told.end());
+  }
+  return told;
 }
 
 /// A shape that was relaxed, and what it costs.
@@ -637,14 +688,8 @@ CurvatureRange range_beside(const std::optional<CurvatureRange>& range, const Cl
           std::max(known.greatest, std::max(own, most) + open)};
 }
 
-}  // namespace
-
-FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit) {
-  if (fit.max_deviation) {
-    Fitter fitter(points);
-    return smooth_curve(fitter.within_deviation(*fit.max_deviation), points.front());
-  }
-  const std::optional<LastPlaces> places = last_places(points);
+/// Of the ways to describe points the best.
+FittedCurve best_of_ways(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places) {
   Found found = smooth_or_described(points, places);
   if (places) found.fitted.last_place = std::max(places->x, places->y);
   std::vector<Vec2> to_follow = thinned(points, kMostFollowed);
@@ -664,6 +709,159 @@ FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFi
     if (!range) range = widened(curvature_range(found, points, places), followed->curve);
   }
   return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, range};
+}
+
+/// The farthest that a curve turns beyond the vertical, to either side [rad].
+double beyond_vertical(const ClothoidSpline& curve) {
+  double most = std::fabs(curve.slope_angle(0.0));
+  for (const double s : curve.breaks()) most = std::max(most, std::fabs(curve.slope_angle(s)));
+  return most - kRightAngle;
+}
+
+// Less is rounding, or noise beside a vertical start; more, that the order of the points is lost in their noise.
+constexpr double kOverhangs = 0.02;  // taste: [rad]
+
+/// Whether a curve turns much as soon as it begins, or just before it ends: led to one of many points that lie within their
+/// noise of each other, it comes to the others so.
+bool bends_at_once(const ClothoidSpline& curve, double noise) {
+  constexpr double kWithin = 4.0;  // taste: standard deviations of points
+  constexpr double kMuch = 0.2;    // taste: [rad]
+  const double length = curve.length();
+  const double near = std::min(kWithin * noise, 0.5 * length);
+  constexpr int kLooks = 16;  // taste: places in between, for what turns there and back
+  for (int i = 1; i <= kLooks; ++i) {
+    const double s = near * i / kLooks;
+    if (std::fabs(curve.slope_angle(s) - curve.slope_angle(0.0)) > kMuch) return true;
+    if (std::fabs(curve.slope_angle(length - s) - curve.slope_angle(length)) > kMuch) return true;
+  }
+  return false;
+}
+
+constexpr double kCrowd = 1.5;  // taste: standard deviations of points within which a crowd of them lies
+
+/// Points that may lead a curve astray, as some lie within their noise of each other.
+class CrowdedPoints {
+ public:
+  CrowdedPoints(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places)
+      : points_(points), places_(places), noise_(noise_of(points, places)) {
+    const std::vector<Vec2> back(points.rbegin(), points.rend());
+    at_ends_ = lost_from(points, 0, kCrowd * noise_) > 1 || lost_from(back, 0, kCrowd * noise_) > 1;
+  }
+
+  /// The curve, or another one if it overhangs, bends at once at an end or leaves more than noise beside a crowd: to the means of
+  /// crowds at the ends, then to those of wider and wider ones all along, until one does not.
+  [[nodiscard]] FittedCurve led_aright(FittedCurve found) const {
+    constexpr std::array kReaches = {2.0, 4.0, 8.0};  // taste: standard deviations
+    FittedCurve best = std::move(found);
+    double least = left_by(best);
+    const auto keep_better = [&](const std::vector<Vec2>& told) {
+      if (told.size() >= points_.size() || told.size() < kFewestToValidate) return;
+      FittedCurve next = best_of_ways(told, places_);
+      const double left = left_by(next);
+      if (left >= least) return;
+      least = left;
+      best = std::move(next);
+    };
+    if (least > kNoMore * noise_) keep_better(with_ends_told(points_, kCrowd * noise_));
+    for (const double reach : kReaches) {
+      if (least <= kNoMore * noise_) break;
+      keep_better(with_order_told(points_, reach * noise_, true));
+    }
+    return best;
+  }
+
+ private:
+  static constexpr double kCrowd = 1.5;    // taste: standard deviations of points within which a crowd lies
+  static constexpr double kNoMore = 1.15;  // taste: than the noise of neighbours
+
+  /// What a curve leaves, in the root of the mean square [m]; 0 where nothing can lead it astray, no bound where something did.
+  [[nodiscard]] double left_by(const FittedCurve& curve) const {
+    const bool overhangs = beyond_vertical(curve.curve) > kOverhangs;
+    if (overhangs || (at_ends_ && bends_at_once(curve.curve, noise_)))
+      return std::numeric_limits<double>::infinity();
+    if (!at_ends_) return 0.0;
+    std::vector<Vec2> seen = points_;
+    for (Vec2& point : seen) point = point - curve.start;
+    return std::sqrt(mean_square_deviation(curve.curve, seen));
+  }
+
+  const std::vector<Vec2>& points_;
+  const std::optional<LastPlaces>& places_;
+  double noise_;
+  bool at_ends_ = false;
+};
+
+/// The shares of a segment at which its slope angle passes another, ascending; 0 and 1 before and behind them.
+std::vector<double> parts_at(double slope, const ClothoidSegment& segment) {
+  std::vector<double> parts = {0.0, 1.0};
+  const double turn = segment.entry_curvature * segment.length;
+  const double change = 0.5 * (segment.exit_curvature - segment.entry_curvature) * segment.length;
+  for (const double limit : {kRightAngle, -kRightAngle}) {
+    // slope - turn u - change u^2 = limit, by the root that loses no digits
+    const double rest = slope - limit;
+    const double square = turn * turn + 4.0 * change * rest;
+    if (square < 0.0) continue;
+    const double half = 0.5 * (turn + std::copysign(std::sqrt(square), turn));
+    for (const double u : {half != 0.0 ? rest / half : 0.0, change != 0.0 ? -half / change : 0.0})
+      if (u > 0.0 && u < 1.0) parts.push_back(u);
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+/// The curve with a vertical straight in place of what overhangs, moved so that the rest stays where most of it was.
+FittedCurve not_overhanging(FittedCurve found) {
+  if (beyond_vertical(found.curve) <= 0.0) return found;
+  const double entry = found.curve.slope_angle(0.0);
+  std::vector<ClothoidSegment> segments;
+  double slope = entry;
+  double overhanging = 0.0;  // integral of where that is
+  double length = 0.0;
+  double s = 0.0;
+  for (const ClothoidSegment& whole : found.curve.segments()) {
+    const std::vector<double> parts = parts_at(slope, whole);
+    for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
+      const double change = whole.exit_curvature - whole.entry_curvature;
+      const double u = 0.5 * (parts[k] + parts[k + 1]);
+      const double here = slope - whole.length * u * (whole.entry_curvature + 0.5 * change * u);
+      ClothoidSegment part{(parts[k + 1] - parts[k]) * whole.length,
+                           whole.entry_curvature + change * parts[k],
+                           whole.entry_curvature + change * parts[k + 1]};
+      if (!(part.length > 0.0)) continue;
+      if (std::fabs(here) > kRightAngle) {
+        part.entry_curvature = part.exit_curvature = 0.0;
+        overhanging += part.length * (s + u * whole.length);
+        length += part.length;
+      }
+      segments.push_back(part);
+    }
+    slope -= 0.5 * (whole.entry_curvature + whole.exit_curvature) * whole.length;
+    s += whole.length;
+  }
+  ClothoidSpline curve(Angle::from_radians(std::clamp(entry, -kRightAngle, kRightAngle)),
+                       std::move(segments));
+  if (overhanging < 0.5 * s * length) {
+    const CenterlinePoint before = found.curve.at(found.curve.length());
+    const CenterlinePoint after = curve.at(curve.length());
+    found.start = found.start + Vec2{before.x - after.x, before.drop - after.drop};
+  }
+  found.curve = std::move(curve);
+  return found;
+}
+
+}  // namespace
+
+FittedCurve fit_clothoid_spline(const std::vector<Vec2>& points, const ProfileFit& fit) {
+  if (fit.max_deviation) {
+    Fitter fitter(points);
+    return smooth_curve(fitter.within_deviation(*fit.max_deviation), points.front());
+  }
+  if (const auto straights = straights_through(points)) {
+    return {straights->profile.spline(), straights->profile.start(points.front()), 0.0, 0.0,
+            straights->largest};
+  }
+  const std::optional<LastPlaces> places = last_places(points);
+  return not_overhanging(CrowdedPoints(points, places).led_aright(best_of_ways(points, places)));
 }
 
 std::vector<PointDeviation> deviations_from(const ClothoidSpline& curve, const std::vector<Vec2>& points) {

@@ -1,3 +1,4 @@
+#include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
@@ -70,6 +71,10 @@ void check_segments(const Design& design, Collected& findings) {
            std::move(drawn.fault->issue));
   } else if (design.track.finish_given) {
     check_segments_finish(design, findings);
+  } else {
+    const Endpoints end = end_of_segments(design);
+    if (auto issue = ends_fault("the segments", math::hypot(end.run, end.drop)))
+      report(findings, {"centerline.segments"}, *std::move(issue));
   }
 }
 

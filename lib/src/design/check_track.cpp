@@ -13,8 +13,7 @@ namespace glissade::design_file {
 namespace {
 
 constexpr double kFarthestCoordinate =
-    1e7;                                 // [m]; beyond, a double no longer holds a tenth of a micrometre well
-constexpr double kShortestTrack = 1e-4;  // [m]
+    1e7;  // [m]; beyond, a double no longer holds a tenth of a micrometre well
 
 void check_coordinates(const Vec3& position, const std::string& key_path, Collected& findings) {
   const std::array<std::pair<const char*, double>, 3> coordinates = {

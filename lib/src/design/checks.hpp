@@ -32,7 +32,8 @@ void check_export(const Design& design, Collected& findings);
 /// Every problem of the limits, and of them with the rest of the design.
 void check_limits(const Design& design, Collected& findings);
 
-inline constexpr double kLongestTrack = 1e6;  ///< [m]
+inline constexpr double kShortestTrack = 1e-4;  ///< [m], from end to end
+inline constexpr double kLongestTrack = 1e6;    ///< [m]
 
 inline void report(Collected& findings, std::vector<std::string> key_paths, Issue issue) {
   findings.push_back({std::move(key_paths), std::move(issue)});

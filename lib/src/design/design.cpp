@@ -2,8 +2,10 @@
 
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "design/check.hpp"
+#include "design/checks.hpp"
 #include "design/findings.hpp"
 
 #include <cmath>
@@ -66,6 +68,16 @@ std::optional<Issue> missed_finish(const TrackDesign& track, const std::string& 
                    " below the start; the finish is " + length_text(run) + " away and " + length_text(drop) +
                    " below.",
                "no finish: it then follows from " + who};
+}
+
+std::optional<Issue> ends_fault(const std::string& who, double distance) {
+  if (distance >= design_file::kShortestTrack && distance <= design_file::kLongestTrack) return {};
+  return Issue{"",
+               who + " end " +
+                   quantity_beyond(distance, Dimension::length,
+                                   {design_file::kShortestTrack, design_file::kLongestTrack}) +
+                   " from where they begin",
+               "The ends of a track are between 0.1 mm and 1000 km apart.", "the unit of their lengths"};
 }
 
 std::vector<Issue> check(const Design& design) {

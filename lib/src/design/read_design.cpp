@@ -18,6 +18,7 @@
 #include "design/read_gates.hpp"
 #include "design/read_in_run.hpp"
 #include "design/read_limits.hpp"
+#include "design/read_line.hpp"
 #include "design/read_materials.hpp"
 #include "design/read_probes.hpp"
 #include "design/read_process.hpp"
@@ -304,6 +305,10 @@ void read_point_columns(MapReader& map, CenterlineDesign& centerline, Findings& 
       centerline.points_slope_angle_column = as_text(columns[2], findings).value_or("");
       centerline.points_curvature_column = as_text(columns[3], findings).value_or("");
     }
+    refuse_column_twice(*value,
+                        {centerline.points_distance_column, centerline.points_height_column,
+                         centerline.points_slope_angle_column, centerline.points_curvature_column},
+                        findings);
   } else if (value->node->kind == Node::Kind::sequence) {
     findings.add(value->node->at, value->key_path,
                  {"", "columns: " + core::counted(columns.size(), "name") + " instead of 2 or 4",

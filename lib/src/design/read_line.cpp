@@ -2,11 +2,13 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 #include "glissade/io/profile_csv.hpp"
 
 #include "core/counted.hpp"
 #include "design/schema_words.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -28,6 +30,7 @@ ProfileCsvOptions read_columns(MapReader& map, Findings& findings) {
   if (columns.size() == 2) {
     options.distance_column = as_text(columns[0], findings).value_or("");
     options.height_column = as_text(columns[1], findings).value_or("");
+    refuse_column_twice(*value, {options.distance_column, options.height_column}, findings);
   } else if (value->node->kind == Node::Kind::sequence) {
     findings.add(value->node->at, value->key_path,
                  {"", "columns: " + core::counted(columns.size(), "name") + " instead of 2",
@@ -101,6 +104,16 @@ std::vector<Vec2> read_file(MapReader& map, const Value& file, const std::filesy
 }
 
 }  // namespace
+
+void refuse_column_twice(const Value& value, const std::vector<std::string>& names, Findings& findings) {
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (name->empty() || std::find(names.begin(), name, *name) == name) continue;
+    findings.add(value.node->at, value.key_path,
+                 {"", "columns: " + shown(*name) + " is named twice",
+                  "Every name stands for a number of its own.", "the columns in their order, each once"});
+    return;
+  }
+}
 
 std::optional<Profile> read_line(const Value& value, const std::filesystem::path& directory,
                                  Findings& findings) {

@@ -195,6 +195,10 @@ std::shared_ptr<const FittedProfile> fit_points(const CenterlineDesign& design, 
 
 CenterlinePtr make_points(const Design& design) {
   ProfilePoints points = read_points(design.centerline);
+  if (points.points.size() > 1) {
+    auto fault = ends_fault("the points", norm(points.points.back() - points.points.front()));
+    if (fault) refuse_point(design.centerline, points, *std::move(fault), points.points.size() - 1);
+  }
   CenterlinePtr track;
   double deviation = 0.0;
   if (points.curvatures.empty()) {

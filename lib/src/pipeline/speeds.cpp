@@ -127,19 +127,27 @@ class Reader {
     reading.speed = in_kilometres_ ? columns_.number(row, "speed_km_h") / kKilometresPerHour
                                    : columns_.number(row, "speed_m_per_s");
     reading.count = count_of(row);
-    constexpr double kFastest = 1000.0;  // [m/s]
+    constexpr double kFastest = 1000.0;  // taste: [m/s], faster than anything slides
+    if (!(reading.speed > 0.0)) {
+      throw InputError({columns_.place(row),
+                        std::string(speed_column()) + ": " +
+                            rounded_text(columns_.number(row, speed_column()), 4) + " is not positive",
+                        "A speed is told by its size: the body rides down to where it is measured.",
+                        "the speed as a positive number, or the row left out"});
+    }
     if (reading.speed > kFastest) {
       throw InputError({columns_.place(row),
                         "the speed, " + rounded_text(reading.speed, 4) + " m/s, is too high",
                         "At most 1000 m/s.", "the unit of the column"});
     }
-    if (reading.speed > 0.0 && reading.place > reading.from_start && before_edge >= 0.0) return reading;
+    if (reading.place > reading.from_start && before_edge >= 0.0) return reading;
     throw InputError({columns_.place(row),
-                      reading.speed > 0.0 ? "the speed is measured " + length_text(before_edge) +
-                                                " before the edge, where no ride of this line passes"
-                                          : "the speed is not positive",
+                      "the speed is measured " + length_text(before_edge) +
+                          " before the edge, where no ride of this line passes",
                       "", "before_edge_m: 10"});
   }
+
+  [[nodiscard]] const char* speed_column() const { return in_kilometres_ ? "speed_km_h" : "speed_m_per_s"; }
 
   CsvColumns columns_;
   std::filesystem::path folder_;

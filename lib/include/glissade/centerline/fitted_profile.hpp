@@ -57,7 +57,8 @@ struct ProfileFault {
 /// two whichever the Bayesian information criterion finds the better one:
 /// - as few pieces: straights, arcs, clothoids and bends whose curvature is a polynomial, with curvature jumps and
 ///   kinks between them where the points show them (a track that builders drew; the in-run of a ski jump).
-///   Straights, arcs and clothoids come back to rounding from exact points;
+///   Straights, arcs and clothoids come back to rounding from exact points; straights that meet at an angle have the
+///   longest arc there that passes none of their points, down to 1e-7 of the length where a point lies in the kink;
 /// - as a clothoid spline of many pieces, curvature continuous, that minimises
 ///     mean of (distance / length)^2 + smoothing * length^3 * integral of (d kappa/ds)^2 ds
 ///   over all clothoid splines from the first point, the smoothing chosen by cross-validation, or, where rounding tells the
@@ -66,6 +67,9 @@ struct ProfileFault {
 /// - as clothoids along a spline of fifth degree through the points (less their noise, where they show some), where that
 ///   leaves less open between exact points than the smooth curve, or where the smooth curve misses what they show.
 /// What the description costs is told by the deviations.
+/// Where the curve overhangs, or bends at once or leaves more than noise where points at an end lie within it, as those of a cycloid
+/// do at its start, such points count as their mean: a curve led to one of them bends to come to the others. What still passes
+/// 90 deg either way is a vertical straight.
 /// Frame: the start (0, 0) is the place of the curve nearest to the first point, the finish that nearest to the
 ///   last one. Where the last point lies to the left of the first, the profile is mirrored: x counts towards the
 ///   finish.

@@ -63,6 +63,11 @@ inline constexpr double kFinishAgreement = 1e-3;
 [[nodiscard]] std::optional<Issue> missed_finish(const TrackDesign& track, const std::string& who, Vec2 end,
                                                  double allowance = 0.0);
 
+/// @param who       whose ends they are, e.g. "the points"
+/// @param distance  between the ends of a drawn track [m]
+/// @return that they lie less than 0.1 mm or more than 1000 km apart; none if they do not
+[[nodiscard]] std::optional<Issue> ends_fault(const std::string& who, double distance);
+
 /// @param point  (x, z) as a design file gives the points of its limits
 /// @return (run, drop) in the plane of the centerline: run from the start, positive towards the finish
 [[nodiscard]] Vec2 in_track_plane(const TrackDesign& track, Vec2 point);

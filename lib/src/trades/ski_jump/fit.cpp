@@ -1,4 +1,4 @@
-// Gauss-Newton with halved steps; a parameter that would fall below zero is held there and the other one fitted alone.
+// Gauss-Newton with halved steps to where the linearized speeds fit best among friction and drag that are not negative.
 
 #include "glissade/trades/ski_jump/fit.hpp"
 
@@ -117,9 +117,8 @@ class Fit {
     come_everywhere();
     iterate();
     SpeedFit fit;
-    fit.friction_at_bound = fits_friction_ && hold_if_negative(friction_, fits_friction_);
-    fit.drag_at_bound = !fit.friction_at_bound && fits_drag_ && hold_if_negative(drag_, fits_drag_);
-    if (fit.friction_at_bound || fit.drag_at_bound) iterate();
+    fit.friction_at_bound = fits_friction_ && !(friction_ > 0.0);
+    fit.drag_at_bound = fits_drag_ && !(drag_ > 0.0);
     fit.friction = friction_;
     fit.drag = drag_;
     fit.residuals = speed_residuals(readings_, current(), gravity_);
@@ -176,10 +175,17 @@ class Fit {
     return sums;
   }
 
-  /// @return the step of friction and drag
+  /// Half of what the sum of squares grows by after a step, as far as speeds are linear.
+  [[nodiscard]] static double growth(const Normal& sums, const std::array<double, 2>& step) {
+    const auto [f, d] = step;
+    return 0.5 * (sums.ff * f * f + 2.0 * sums.fd * f * d + sums.dd * d * d) + sums.f * f + sums.d * d;
+  }
+
+  /// @return the step of friction and drag: to where both fit best, or, where one would be negative there, to the best
+  ///         place where one of them is none
   [[nodiscard]] std::array<double, 2> step(const Normal& sums) const {
-    if (!fits_drag_) return {-sums.f / sums.ff, 0.0};
-    if (!fits_friction_) return {0.0, -sums.d / sums.dd};
+    if (!fits_drag_) return {std::max(-sums.f / sums.ff, -friction_), 0.0};
+    if (!fits_friction_) return {0.0, std::max(-sums.d / sums.dd, -drag_)};
     const double determinant = sums.ff * sums.dd - sums.fd * sums.fd;
     // Of rides of one length to one place both take the same from every speed.
     constexpr double kNothing = 1e-12;  // rounding
@@ -188,8 +194,14 @@ class Fit {
                         "Rides of one length to one place lose the same to either.",
                         "speeds from several gates; or one of the two held at a known value"});
     }
-    return {(-sums.f * sums.dd + sums.d * sums.fd) / determinant,
-            (-sums.d * sums.ff + sums.f * sums.fd) / determinant};
+    const std::array<double, 2> free = {(-sums.f * sums.dd + sums.d * sums.fd) / determinant,
+                                        (-sums.d * sums.ff + sums.f * sums.fd) / determinant};
+    if (free[0] >= -friction_ && free[1] >= -drag_) return free;
+    const std::array<double, 2> frictionless = {-friction_,
+                                                std::max((-sums.d + sums.fd * friction_) / sums.dd, -drag_)};
+    const std::array<double, 2> dragless = {std::max((-sums.f + sums.fd * drag_) / sums.ff, -friction_),
+                                            -drag_};
+    return growth(sums, frictionless) < growth(sums, dragless) ? frictionless : dragless;
   }
 
   [[nodiscard]] static ConvergenceError not_settled() {
@@ -203,8 +215,8 @@ class Fit {
     constexpr double kLeastShare = 1e-6;  // taste: less is rounding
     const double before = squares(friction_, drag_);
     for (double share = 1.0; share > 0.0; share *= 0.5) {
-      // A body that pushes itself is beyond the laws: steps end where friction or drag is none. Where one does not come
-      // to its place they went too far, however short they are.
+      // A body that pushes itself is beyond the laws: rounding is not to make one. Where one does not come to its place
+      // steps went too far, however short they are.
       const double friction = std::max(friction_ + share * wanted[0], 0.0);
       const double drag = std::max(drag_ + share * wanted[1], 0.0);
       const double after = squares(friction, drag);
@@ -230,13 +242,7 @@ class Fit {
     throw not_settled();
   }
 
-  /// At a bound the value is held; what is left to fit is the other one.
-  bool hold_if_negative(double value, bool& fitted) {
-    if (value > 0.0) return false;
-    fitted = false;
-    return true;
-  }
-
+  /// Also where one is held at none: it is known no better for that, and takes from the other what it may be.
   void add_uncertainties(SpeedFit& fit) const {
     if (parameters() == 0 || readings_.size() <= parameters()) return;
     const Normal sums = normal();

@@ -31,7 +31,7 @@ struct SpeedFit {
   double friction = 0.0;  ///< coefficient mu; >= 0
   double drag = 0.0;      ///< k [1/m]; >= 0
   std::optional<double>
-      friction_uncertainty;  ///< one standard deviation; none if it was not fitted or cannot be told
+      friction_uncertainty;  ///< one standard deviation; none if it was not fitted or cannot be told; at the bound upwards
   std::optional<double> drag_uncertainty;  ///< [1/m]
   std::optional<double> correlation;       ///< of the two; none unless both were fitted
   double rms = 0.0;                        ///< of the residuals [m/s]
@@ -50,7 +50,8 @@ struct SpeedFitOptions {
 /// the error of a mean. Rides are the referee's, derivatives those of speed_slopes().
 ///
 /// Uncertainties come from the scatter of the residuals (their sum of squares over readings less parameters) and the
-/// derivatives. End speeds tell friction and drag apart badly: their correlation is near -1, and the sum of what both take
+/// derivatives; where one is at its bound, none, they are those of both as if it were not: the truth may lie beside the
+/// bound, and then the other is less by what it takes. End speeds tell friction and drag apart badly: their correlation is near -1, and the sum of what both take
 /// away is known much better than either.
 /// @param body     everything else about the body: height of the centre of mass, wind
 /// @throws InputError if there are fewer readings than parameters, a reading has no track, is out of its range or a
