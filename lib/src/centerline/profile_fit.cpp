@@ -3,12 +3,13 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
-#include "glissade/core/units.hpp"
 
+#include "crowded_points.hpp"
 #include "profile_cost.hpp"
 #include "profile_description.hpp"
 #include "profile_interpolant.hpp"
 #include "profile_model.hpp"
+#include "profile_overhang.hpp"
 #include "profile_seen.hpp"
 #include "profile_straights.hpp"
 #include "rounded_points.hpp"
@@ -63,47 +64,6 @@ double noise_of(const std::vector<Vec2>& points, const std::optional<LastPlaces>
   const auto scatter = scatter_beside_neighbours(points);
   const double rounding = places ? std::sqrt(noise_of_rounding(points, *places)) : 0.0;
   return std::max(scatter ? scatter->quarter : 0.0, rounding);
-}
-
-/// How many points from one on lie so close together that the way from the first to the last of them is lost in noise: the
-/// mean of them is within this reach of that of as many behind them.
-std::size_t lost_from(const std::vector<Vec2>& points, std::size_t first, double reach) {
-  constexpr std::size_t kFewest = 4;  // taste: the mean of fewer is hardly better than the first of them
-  constexpr std::size_t kPart = 8;    // taste: of all points
-  const auto mean = [&](std::size_t from, std::size_t to) {
-    Vec2 sum;
-    for (std::size_t i = from; i < to; ++i) sum = sum + (points[i] - points[first]);
-    return (1.0 / static_cast<double>(to - from)) * sum;
-  };
-  std::size_t count = 1;
-  for (std::size_t half = kFewest; half * kPart <= points.size(); half *= 2) {
-    if (first + 2 * half > points.size()) break;
-    if (norm(mean(first, first + half) - mean(first + half, first + 2 * half)) <= reach) count = half;
-  }
-  return count;
-}
-
-/// The points with those as one that noise hides the order of: at both ends, or all along.
-std::vector<Vec2> with_order_told(const std::vector<Vec2>& points, double reach, bool all_along) {
-  std::vector<Vec2> told;
-  for (std::size_t from = 0; from < points.size();) {
-    const std::size_t count = from == 0 || all_along ? lost_from(points, from, reach) : 1;
-    Vec2 sum;
-    for (std::size_t i = from; i < from + count; ++i) sum = sum + (points[i] - points[from]);
-    told.push_back(points[from] + (1.0 / static_cast<double>(count)) * sum);
-    from += count;
-  }
-  return told;
-}
-
-/// The points with those at both ends as one.
-std::vector<Vec2> with_ends_told(const std::vector<Vec2>& points, double reach) {
-  std::vector<Vec2> told = points;
-  for (int end = 0; end < 2; ++end) {
-    told = with_order_told(told, reach, false);
-    std::reverse(told.begin(), told.end());
-  }
-  return told;
 }
 
 /// A shape that was relaxed, and what it costs.
@@ -711,13 +671,6 @@ FittedCurve best_of_ways(const std::vector<Vec2>& points, const std::optional<La
   return {std::move(followed->curve), followed->start, followed->between, found.fitted.last_place, range};
 }
 
-/// The farthest that a curve turns beyond the vertical, to either side [rad].
-double beyond_vertical(const ClothoidSpline& curve) {
-  double most = std::fabs(curve.slope_angle(0.0));
-  for (const double s : curve.breaks()) most = std::max(most, std::fabs(curve.slope_angle(s)));
-  return most - kRightAngle;
-}
-
 // Less is rounding, or noise beside a vertical start; more, that the order of the points is lost in their noise.
 constexpr double kOverhangs = 0.02;  // taste: [rad]
 
@@ -736,8 +689,6 @@ bool bends_at_once(const ClothoidSpline& curve, double noise) {
   }
   return false;
 }
-
-constexpr double kCrowd = 1.5;  // taste: standard deviations of points within which a crowd of them lies
 
 /// Points that may lead a curve astray, as some lie within their noise of each other.
 class CrowdedPoints {
@@ -790,64 +741,6 @@ class CrowdedPoints {
   double noise_;
   bool at_ends_ = false;
 };
-
-/// The shares of a segment at which its slope angle passes another, ascending; 0 and 1 before and behind them.
-std::vector<double> parts_at(double slope, const ClothoidSegment& segment) {
-  std::vector<double> parts = {0.0, 1.0};
-  const double turn = segment.entry_curvature * segment.length;
-  const double change = 0.5 * (segment.exit_curvature - segment.entry_curvature) * segment.length;
-  for (const double limit : {kRightAngle, -kRightAngle}) {
-    // slope - turn u - change u^2 = limit, by the root that loses no digits
-    const double rest = slope - limit;
-    const double square = turn * turn + 4.0 * change * rest;
-    if (square < 0.0) continue;
-    const double half = 0.5 * (turn + std::copysign(std::sqrt(square), turn));
-    for (const double u : {half != 0.0 ? rest / half : 0.0, change != 0.0 ? -half / change : 0.0})
-      if (u > 0.0 && u < 1.0) parts.push_back(u);
-  }
-  std::sort(parts.begin(), parts.end());
-  return parts;
-}
-
-/// The curve with a vertical straight in place of what overhangs, moved so that the rest stays where most of it was.
-FittedCurve not_overhanging(FittedCurve found) {
-  if (beyond_vertical(found.curve) <= 0.0) return found;
-  const double entry = found.curve.slope_angle(0.0);
-  std::vector<ClothoidSegment> segments;
-  double slope = entry;
-  double overhanging = 0.0;  // integral of where that is
-  double length = 0.0;
-  double s = 0.0;
-  for (const ClothoidSegment& whole : found.curve.segments()) {
-    const std::vector<double> parts = parts_at(slope, whole);
-    for (std::size_t k = 0; k + 1 < parts.size(); ++k) {
-      const double change = whole.exit_curvature - whole.entry_curvature;
-      const double u = 0.5 * (parts[k] + parts[k + 1]);
-      const double here = slope - whole.length * u * (whole.entry_curvature + 0.5 * change * u);
-      ClothoidSegment part{(parts[k + 1] - parts[k]) * whole.length,
-                           whole.entry_curvature + change * parts[k],
-                           whole.entry_curvature + change * parts[k + 1]};
-      if (!(part.length > 0.0)) continue;
-      if (std::fabs(here) > kRightAngle) {
-        part.entry_curvature = part.exit_curvature = 0.0;
-        overhanging += part.length * (s + u * whole.length);
-        length += part.length;
-      }
-      segments.push_back(part);
-    }
-    slope -= 0.5 * (whole.entry_curvature + whole.exit_curvature) * whole.length;
-    s += whole.length;
-  }
-  ClothoidSpline curve(Angle::from_radians(std::clamp(entry, -kRightAngle, kRightAngle)),
-                       std::move(segments));
-  if (overhanging < 0.5 * s * length) {
-    const CenterlinePoint before = found.curve.at(found.curve.length());
-    const CenterlinePoint after = curve.at(curve.length());
-    found.start = found.start + Vec2{before.x - after.x, before.drop - after.drop};
-  }
-  found.curve = std::move(curve);
-  return found;
-}
 
 }  // namespace
 
