@@ -140,6 +140,15 @@ TEST_CASE("start and finish are two points, the finish below") {
       problems_with("z: 1.1 m", "z: 7 m"),
       StartsWith("d.yaml:5:25: the finish lies 0.8 m above the start") && Contains("z counts upwards"));
   CHECK_THAT(problems_with("z: 1.1 m", "z: 6.2 m"), Contains("the finish lies level with the start"));
+  // Where a wind blows it on the ride tells.
+  std::string above(kSoundDesign);
+  above.replace(above.find("z: 1.1 m"), 8, "z: 7 m");
+  for (const std::string wind : {"20", "-20"}) {
+    std::string blown = above;
+    blown.replace(blown.find("17 deg"), 6, "17 deg\n  drag: 0.1 1/m\n  head_wind: " + wind + " m/s");
+    CAPTURE(blown);
+    CHECK(problems_of(blown).empty() == (wind == "-20"));
+  }
   CHECK_THAT(problems_with("x: 5.4 m", "x: 2e6 m"),
              Contains("d.yaml:5:3: start and finish are 2000 km apart"));
   CHECK_THAT(problems_with("x: 5.4 m", "x: 2e9 m"), Contains("x: 2000000 km is too far from the origin"));

@@ -239,6 +239,12 @@ TEST_CASE("a finish that is free both ways lies within its bounds, and leads the
   CHECK(bounded.free_height == Range{0.0, 3.0});
   CHECK(bounded.finish.x <= -2.0);
   CHECK(bounded.finish.z <= 3.0);
+  // Bounds that keep it away from the start, at (0, 6.2) m, say how far it is; others leave that to a speed.
+  for (const char* const away : {"{x: {lowest: 2 m}, z: free}", "{x: {highest: -2 m}, z: {highest: 7 m}}",
+                                 "{x: free, z: {highest: 3 m}}"})
+    CHECK(problems_with("{x: 5.4 m, z: 1.1 m}", away).empty());
+  CHECK_THAT(problems_with("{x: 5.4 m, z: 1.1 m}", "{x: {lowest: -2 m}, z: {highest: 7 m}}"),
+             Contains("the finish is free both ways, and no exit speed above the entry speed is asked for"));
 }
 
 TEST_CASE("limits that contradict each other or the design are refused where they stand") {

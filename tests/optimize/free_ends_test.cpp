@@ -226,6 +226,51 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("bounds that keep an end away say how far it is, where no speed is asked for that does") {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.body.friction = Friction::from_coefficient(0.1);
+  problem.body.entry_speed = 5.0;
+  problem.finish.kind = FinishKind::anywhere;
+  problem.finish.free_range = {10.0, 12.0};
+  problem.finish.free_drop = {4.0, 6.0};
+  const double without = solved(problem).report.travel_time;
+  for (const double speed : {4.99, 5.01}) {
+    problem.limits.exit_speed.lowest = speed;
+    CHECK(std::fabs(solved(problem).report.travel_time / without - 1.0) < 1e-6);
+  }
+  problem.limits.exit_speed.lowest.reset();
+  problem.finish.free_range = {0.0, 12.0};
+  problem.finish.free_drop = {-1.0, 6.0};
+  CHECK_THROWS_WITH(optimize(problem), Catch::Matchers::Contains("free both ways"));
+}
+
+TEST_CASE("a wind from behind drives a body from rest up to a finish above the start") {
+  Problem problem;
+  problem.gravity = kGravity;
+  problem.body.friction = Friction::from_coefficient(0.1);
+  problem.body.drag_per_metre = 0.1;
+  problem.body.head_wind = -20.0;
+  double before = 0.0;
+  for (const double climb : {-0.5, 0.0, 1.0}) {
+    CAPTURE(climb);
+    problem.endpoints = {10.0, -climb};
+    const Optimum fastest = solved(problem);
+    const double slope = std::atan2(-climb, 10.0);
+    const auto line = std::make_shared<const ClothoidSpline>(
+        Angle::from_radians(slope), std::vector<ClothoidSegment>{{std::hypot(10.0, climb), 0.0, 0.0}});
+    const Motion straight(line, problem.body, kGravity);
+    REQUIRE(straight.arrived());
+    CHECK(fastest.report.travel_time < straight.travel_time());
+    CHECK(fastest.report.travel_time > 0.95 * straight.travel_time());
+    CHECK(fastest.report.travel_time > before);
+    before = fastest.report.travel_time;
+  }
+  problem.body.head_wind = 20.0;
+  CHECK_THROWS_WITH(optimize(problem),
+                    Catch::Matchers::Contains("from rest the finish must lie below the start"));
+}
+
 TEST_CASE("of a run of a foot a fall of forty is no more than others") {
   Problem problem = task(0.1, 0.0, 20.0, ObjectiveKind::travel_time);
   problem.finish.kind = FinishKind::vertical_line;

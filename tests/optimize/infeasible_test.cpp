@@ -225,3 +225,32 @@ TEST_CASE("a straight end that has a part in a conflict is named, with a length 
     CHECK_FALSE(optimize(problem).centerline);
   }
 }
+
+TEST_CASE("limits that a track just keeps are not said to contradict each other") {
+  if (!testing::thorough()) return;  // each takes seconds
+  Problem problem;
+  problem.gravity = 9.81;
+  problem.endpoints = {90.0, 47.104};
+  problem.body.friction = Friction::from_coefficient(0.03);
+  problem.body.drag_per_metre = 0.0013;
+  problem.limits.slope_angle.highest = Angle::from_degrees(35.0).radians();
+  problem.limits.exit_slope_angle = Range::fixed(Angle::from_degrees(11.0).radians());
+  problem.limits.concave = true;
+  problem.limits.smallest_valley_radius = 104.1;
+  problem.limits.lead_in = 24.0;
+  problem.limits.lead_out = 6.767;
+  // The least that a track carries is 15.0331 m/s^2, by descents of the load alone.
+  for (const double load : {15.035, 15.0335}) {
+    problem.limits.highest_normal_load = load;
+    const Optimum within = optimize(problem);
+    CAPTURE(load, within.report.brief());
+    CHECK(within.report.status == OptimizeStatus::optimal);
+  }
+  for (const double load : {15.032, 15.0}) {
+    problem.limits.highest_normal_load = load;
+    const Optimum without = optimize(problem);
+    CAPTURE(load, without.report.brief());
+    CHECK(without.report.status == OptimizeStatus::infeasible);
+    CHECK(without.report.message.find("cannot be met together; it would take") != std::string::npos);
+  }
+}

@@ -29,10 +29,15 @@ void check_coordinates(const Vec3& position, const std::string& key_path, Collec
   }
 }
 
+/// A wind from behind drives the body, too: how far, its ride tells.
+bool is_blown(const Design& design) {
+  return design.body.head_wind < 0.0;
+}
+
 bool may_climb(const Design& design) {
   const CenterlineKind kind = design.centerline.kind;
   return (kind == CenterlineKind::fastest || kind == CenterlineKind::straight) &&
-         design.body.entry_speed > 0.0;
+         (design.body.entry_speed > 0.0 || is_blown(design));
 }
 
 void check_drop(const Design& design, Collected& findings) {
@@ -57,7 +62,7 @@ void check_drop(const Design& design, Collected& findings) {
     return;
   }
   const double climb = design.body.entry_speed * design.body.entry_speed / (2.0 * design.gravity);
-  if (-drop < climb) return;
+  if (-drop < climb || is_blown(design)) return;
   report(findings, paths,
          {"", "the finish lies " + place + ", higher than the entry speed can carry the body",
           "An entry_speed of " + rounded_text(design.body.entry_speed, 4) + " m/s is worth a climb of " +
@@ -75,11 +80,19 @@ void check_free_range(const Range& range, const std::string& key, Collected& fin
   if (range.highest) check_coordinates({*range.highest, 0.0, 0.0}, "track.finish." + key, findings);
 }
 
-/// It is the speed to be reached that says how far a track with a free end has to fall.
+bool leaves_out(const Range& range, double place) {
+  return range.lowest.value_or(place) > place || range.highest.value_or(place) < place;
+}
+
+/// It is the speed to be reached that says how far a track with a free end has to fall, or bounds that keep the end away from the
+/// other one.
 void check_free_both_ways(const Design& design, const char* end, Collected& findings) {
+  const TrackDesign& track = design.track;
   const bool given =
       design.limits && design.limits->exit_speed.lowest.value_or(0.0) > design.body.entry_speed;
-  if (given) return;
+  const bool is_away = !track.free_start && (leaves_out(track.free_range, track.start.x) ||
+                                             leaves_out(track.free_height, track.start.z));
+  if (given || is_away) return;
   report(
       findings, {"limits.exit_speed", std::string("track.") + end, "track.edge", "limits", "track"},
       {"",

@@ -379,7 +379,14 @@ Resolve resolve_with(const OptimizeOptions& options, SearchControl& control) {
     control.any_track = false;
     return course.kept();
   };
-  return {anew, from};
+  const auto optimum = [&](const Problem& problem) -> std::optional<Foothold> {
+    Course course(problem, options, control, quiet);
+    course.from_starts();
+    if (!course.kept() && !course.stopped()) course.from_footholds(false);
+    if (!course.kept()) return std::nullopt;
+    return course.foothold();
+  };
+  return {anew, from, optimum};
 }
 
 std::string ended_text(const Objective& objective, OptimizeStatus status, bool stopped, bool out_of_time) {

@@ -343,6 +343,15 @@ class LeastViolation {
     return ends_at(way, std::move(attempt));
   }
 
+  /// From a track that all but keeps the limits: what is left over may go as the mesh follows the track. @return as above
+  bool from_near(std::size_t way, const Mesh& mesh, const GuessCurve& curve) {
+    constexpr double kMayGo = 1e-4;  // taste: ten times what counts as met
+    if (from(way, mesh, curve)) return true;
+    if (best_->relaxed.t > kMayGo) return false;
+    found_ = leads_({Foothold{way_, best_->mesh, best_->relaxed.found.z}});
+    return found_;
+  }
+
   bool closely() {
     if (best_->relaxed.t < kNearly) return found_;
     Attempt closer = *best_;
@@ -712,6 +721,24 @@ void add_leads(const Problem& problem, const Resolve& resolve, SearchControl& co
   }
 }
 
+/// Where limits are all but met: whether an optimum within a looser bound that does leads to a track that keeps them. Its mesh has
+/// knots where curvature jumps, which coarser ones miss by as much as is missing.
+bool is_met_from_looser(const Problem& problem, const std::vector<Relaxation>& looser, const Resolve& resolve,
+                        LeastViolation& search) {
+  if (!resolve.optimum || search.best().relaxed.t >= kNearly) return false;
+  for (const Relaxation& relaxation : looser) {
+    const auto changed = with_bound(problem, relaxation.limit, relaxation.needed);
+    const auto optimum = changed ? resolve.optimum(*changed) : std::nullopt;
+    if (!optimum) continue;
+    // Straight ends are part of a mesh.
+    const Transcription track(optimum->mesh);
+    const Mesh mesh =
+        mesh_of(*search.ways()[optimum->passages], optimum->mesh.knots, track.core_length(optimum->z));
+    if (search.from_near(optimum->passages, mesh, curve_of(track, optimum->z))) return true;
+  }
+  return false;
+}
+
 /// What stands against each other where no track was found, from the best end of all searches for one.
 Opposition opposition_of(Footing& footing, SearchControl& control) {
   // From a better track the reasons are others; how often they are looked for anew.
@@ -770,6 +797,7 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
   // Nothing stands against it but energy.
   if (beyond) conflict.limits = {beyond->limit};
   if (!conflict.limits.empty() && resolve.anew) add_leads(problem, resolve, control, conflict);
+  if (!proof && is_met_from_looser(problem, conflict.relaxations, resolve, search)) return {};
   // A local search that ends above zero confirms that limits stand against each other; but for those that more and
   // other bends might keep, of which it has tried few.
   const bool bends = footing.asks_for_bends() || asking_for_bends(search.best());
@@ -779,8 +807,10 @@ Explanation explain(const Problem& problem, const std::vector<Passages>& passage
                     [](const StatedLimit& stated) { return stated.limit.id == LimitId::waypoints; });
   const ScaledProblem& scaled = *search.ways().front();
   const bool reaches_beyond = scaled.lead_in + scaled.lead_out >= 1.0;
-  explanation.certain =
-      !conflict.limits.empty() && (proof || (settled && !bends && points < 2 && !reaches_beyond));
+  // Nor where one mesh holds a track that keeps all of them, though none of its neighbours does between the stations.
+  constexpr double kKept = 1e-7;  // accuracy: that of a limit
+  const bool is_local = bends || points >= 2 || reaches_beyond || search.best().relaxed.t <= kKept;
+  explanation.certain = !conflict.limits.empty() && (proof || (settled && !is_local));
   if (proof) conflict.why = *proof;
   if (explanation.certain) conflict.text = conflict_text(conflict);
   return explanation;

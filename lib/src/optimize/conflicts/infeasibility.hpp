@@ -35,6 +35,8 @@ struct Resolve {
   /// before all others. It ends after so many evaluations more, whatever is found by then.
   std::function<bool(const Problem&, int most_evaluations, const std::vector<Beginning>& likely)> anew;
   std::function<bool(const Problem&, const Foothold&)> from;
+  /// The optimum from its starts, or from tracks that keep the limits; none where there is none.
+  std::function<std::optional<Foothold>(const Problem&)> optimum;
 };
 
 /// Searches on from tracks that keep all limits at the stations of their meshes; of several the best one counts.
