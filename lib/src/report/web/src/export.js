@@ -37,18 +37,24 @@ export const TITLE_LINE = 16;
 const LEGEND_LINE = 18;
 const MARGIN = 16;
 
-function penOf(weight) {
+function penOf(weight, size = 12) {
   const pen = document.createElement("canvas").getContext("2d");
-  pen.font = `${weight} 12px ${FONT}`;
+  pen.font = `${weight} ${size}px ${FONT}`;
   return pen;
 }
 
+export const textWidth = (text, size) => penOf(400, size).measureText(text).width;
+
 // The lines of a title, none wider than its room [px]; a word that is wider than that is cut.
-export function titleLines(title, room) {
-  const pen = penOf(600);
+export const titleLines = (title, room) => linesWithin(title, room, penOf(600));
+
+// The lines of a note below a title, in the size [px] it is written in.
+export const noteLines = (note, room, size) => linesWithin(note, room, penOf(400, size));
+
+function linesWithin(text, room, pen) {
   const lines = [];
   let line = "";
-  for (const piece of title.split(/(?<= )/)) {
+  for (const piece of text.split(/(?<= )/)) {
     if (line && pen.measureText((line + piece).trimEnd()).width > room) {
       lines.push(line.trimEnd());
       line = "";
@@ -67,7 +73,6 @@ export function titleLines(title, room) {
 // A title over a drawing of that width, and a sample of each kind of line and area in it with its name.
 // @return {nodes, height}, from its own upper left corner
 function heading(copy, { title, legend }, width) {
-  const pen = penOf(400);
   const text = (x, y, value, attributes) => svgElement("text", { x, y, "font-family": FONT, "font-size": 12, fill: themeColour("--ink"), ...attributes }, value);
   const titles = titleLines(title, width - 2 * MARGIN);
   const nodes = titles.map((line, i) => text(MARGIN, 18 + TITLE_LINE * i, line, { "font-weight": 600 }));
@@ -75,7 +80,7 @@ function heading(copy, { title, legend }, width) {
   for (const [selector, name] of legend) {
     const drawn = copy.querySelector(`[data-line="${selector}"]`);
     if (!drawn) continue;
-    const needed = 28 + pen.measureText(name).width;
+    const needed = 28 + textWidth(name, 12);
     if (x > MARGIN && x + needed > width - MARGIN) [x, y] = [MARGIN, y + LEGEND_LINE];
     const area = drawn.tagName === "polygon";
     const sample = area ? svgElement("rect", { x, y: y - 6, width: 22, height: 12 }) : svgElement("line", { x1: x, x2: x + 22, y1: y, y2: y });

@@ -1,10 +1,12 @@
 // Flat patterns and views of single parts as drawings.
 
 import { svgElement } from "./dom.js";
+import { textWidth } from "./export.js";
 import { millimetres } from "./units.js";
 
 const WIDE = 400;
 const MARGIN = 8;
+const MEASURE = 12;  // size of a measure's text, as the page's styles have it
 
 // --- paths of [x, y, bulge], y up
 
@@ -99,8 +101,11 @@ class Figure {
   measures() {
     const { box, scale, left, top } = this;
     const [width, height] = [scale * box.width, scale * box.height];
+    const across = millimetres(box.width);
+    // Below a figure that is narrower than its measure, this begins where the figure does: the drawing ends on the left of it.
+    const middle = left + Math.max(width, textWidth(across, MEASURE)) / 2;
     return [
-      svgElement("text", { class: "measure", x: left + width / 2, y: top + height + 16, "text-anchor": "middle" }, millimetres(box.width)),
+      svgElement("text", { class: "measure", x: middle, y: top + height + 16, "text-anchor": "middle" }, across),
       svgElement("text", { class: "measure", x: left + width + 6, y: top + height / 2 + 4 }, millimetres(box.height)),
     ];
   }

@@ -1,13 +1,14 @@
 import uPlot from "uplot";
 import { radiusOf } from "./data.js";
 import { button, element, section, select, svgElement, themeColour } from "./dom.js";
-import { TITLE_LINE, exportButtons, titleLines } from "./export.js";
+import { TITLE_LINE, exportButtons, noteLines, titleLines } from "./export.js";
 import { columnText, tickTexts } from "./units.js";
 
 const SYNC = "glissade";
 const HEIGHT = 220;
 // Half of A4 between its margins, in CSS pixels, and how many times as large it is drawn.
 const PAPER = { width: 336, scale: 2 };
+const NOTE = 11;  // size of the note below the title of a saved chart, in CSS pixels
 
 const AXES = {
   arc_length_m: ["arc length s", "length"],
@@ -188,13 +189,24 @@ class Chart {
     this.axisDrawn = this.axisKey();
   }
 
+  // Of a range of friction: which one the thick line is of, and what lies beside it. Null without a range.
+  note() {
+    const { chart, doc } = this;
+    if (doc.rides.length < 2) return null;
+    const banded = chart.band && this.store.get("axis") !== "time_s";
+    return `at ${doc.ride.friction ?? "nominal"} friction${banded ? "; dashed: low and high friction" : ""}`;
+  }
+
   // The chart as it is shown now, drawn again as SVG.
   file() {
     const { plot, chart, doc } = this;
     const { width, height } = plot.over.getBoundingClientRect();
     const left = Number.parseFloat(plot.over.style.left);
-    const titles = titleLines(`${doc.design.name}: ${chart.title.toLowerCase()}`, plot.width - left - 8);
-    const more = TITLE_LINE * (titles.length - 1);
+    const room = plot.width - left - 8;
+    const titles = titleLines(`${doc.design.name}: ${chart.title.toLowerCase()}`, room);
+    const note = this.note();
+    const notes = note ? noteLines(note, room, NOTE) : [];
+    const more = TITLE_LINE * (titles.length - 1 + Math.max(notes.length - 1, 0));
     const top = Number.parseFloat(plot.over.style.top) + 22 + more;
     const whole = { width: plot.width, height: plot.height + 22 + more };
     const ink = themeColour("--ink");
@@ -228,13 +240,10 @@ class Chart {
     }, svgElement("title", {}, name))));
     const legend = chart.legend ? chart.series.map(([name, , colour], i) =>
       text({ x: left + width - 4, y: top + 14 + 15 * i, "text-anchor": "end", fill: themeColour(colour) }, name)) : [];
-    // A range of friction: which one the thick line is of, and what lies beside it.
-    const banded = chart.band && this.store.get("axis") !== "time_s";
-    const friction = doc.rides.length < 2 ? null
-      : text({ x: left, y: 32 + more, "font-size": 11 }, `at ${doc.ride.friction ?? "nominal"} friction${banded ? "; dashed: low and high friction" : ""}`);
     const svg = svgElement("svg", { xmlns: "http://www.w3.org/2000/svg", ...whole, viewBox: `0 0 ${whole.width} ${whole.height}` },
       svgElement("rect", { ...whole, fill: themeColour("--panel") }),
-      titles.map((title, i) => text({ x: left, y: 16 + TITLE_LINE * i, fill: ink, "font-weight": 600 }, title)), friction ?? "",
+      titles.map((title, i) => text({ x: left, y: 16 + TITLE_LINE * i, fill: ink, "font-weight": 600 }, title)),
+      notes.map((one, i) => text({ x: left, y: 16 + TITLE_LINE * (titles.length + i), "font-size": NOTE }, one)),
       clip, ticks, svgElement("rect", { x: left, y: top, width, height, fill: "none", stroke: themeColour("--grid") }), curves, legend,
       text({ x: left + width / 2, y: top + height + 38, "text-anchor": "middle" }, across.label),
       text({ transform: `translate(14 ${top + height / 2}) rotate(-90)`, "text-anchor": "middle" }, up.label));
