@@ -554,7 +554,9 @@ class LeastBound {
     };
     const auto [tight, loose] = texts_apart(bracket_.tight, bracket_.loose, text);
     return "of those between " + (bracket_.tight > 0.0 ? tight + ", which is too tight," : "none") + " and " +
-           loose + (bracket_.untold.empty() ? " not all were tried" : " the searches came to no end");
+           loose +
+           (bracket_.untold.empty() || outlay_.ends() ? " not all were tried"
+                                                      : " the searches came to no end");
   }
 
   const Problem& asked_;
