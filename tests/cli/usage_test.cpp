@@ -126,6 +126,33 @@ TEST_CASE("what is printed is printed also where a file cannot be written") {
   CHECK(solved.exit_code == 5);
   CHECK_THAT(solved.output, Contains("Travel time"));
   CHECK_THAT(solved.errors, Contains("taken"));
+  const Outcome compared = glissade_run({"compare", shipped("grain_chute"), "--csv", "taken"}, limits);
+  CHECK(compared.exit_code == 5);
+  CHECK_THAT(compared.output, Contains("constant-speed"));
+  CHECK_THAT(compared.errors, Contains("taken"));
+  const Outcome judged =
+      glissade_run({"rules", shipped("hills/garmisch_redesign"), "--csv", "taken"}, limits);
+  CHECK(judged.exit_code == 5);
+  CHECK_THAT(judged.output, Contains("pass"));
+  CHECK_THAT(judged.errors, Contains("taken"));
+}
+
+TEST_CASE("where neither a file nor standard output can be written both are told") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  limits.output_to = "/dev/full";
+  std::filesystem::create_directory(place / "taken");
+  for (const auto& [command, design] : {std::pair{"solve", "grain_chute"},
+                                        {"compare", "grain_chute"},
+                                        {"rules", "hills/garmisch_redesign"}}) {
+    CAPTURE(command);
+    const Outcome outcome = glissade_run({command, shipped(design), "--csv", "taken"}, limits);
+    CHECK(outcome.exit_code == 5);
+    CHECK_THAT(outcome.errors, Contains("glissade: error: standard output: ") &&
+                                   Contains("glissade: error: taken: ") && !Contains("is written") &&
+                                   !Contains("are written"));
+  }
 }
 
 TEST_CASE("a pipe or device takes no file, by whatever name it goes") {
