@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -135,6 +136,35 @@ TEST_CASE("what is printed is printed also where a file cannot be written") {
   CHECK(judged.exit_code == 5);
   CHECK_THAT(judged.output, Contains("pass"));
   CHECK_THAT(judged.errors, Contains("taken"));
+}
+
+TEST_CASE("the table of gates tells neighbours apart, whatever the size of the track") {
+  const TempDir place;
+  for (const double scale : {1.0, 0.1, 0.01, 0.001}) {
+    CAPTURE(scale);
+    const auto m = [&](double metres) { return nlohmann::json(scale * metres).dump() + " m"; };
+    std::ofstream(place / "hill.yaml")
+        << "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.03}\n"
+        << "centerline: {kind: in-run, gamma: 36 deg, alpha: 11 deg, r1: " << m(101.1) << ", t: " << m(7.0)
+        << ", e1: " << m(99.0) << ", es: " << m(22.0) << ", e_counts_to: table, transition: cubic}\n"
+        << "gates: {count: 32, measuring_place: " << m(10.0) << "}\n";
+    const Outcome outcome = glissade_run({"gates", (place / "hill.yaml").string()});
+    REQUIRE(outcome.exit_code == 0);
+    std::istringstream lines(outcome.output);
+    std::vector<double> to_edge;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream row(line);
+      int gate = 0;
+      double distance = 0.0;
+      if (row >> gate >> distance) to_edge.push_back(distance);
+    }
+    REQUIRE(to_edge.size() == 32);
+    const double apart = scale * 22.0 / 31.0;
+    for (std::size_t i = 1; i < to_edge.size(); ++i) {
+      CHECK(to_edge[i] - to_edge[i - 1] == Approx(apart).epsilon(0.1));
+    }
+    CHECK_THAT(outcome.output, Contains("to edge [m]"));
+  }
 }
 
 TEST_CASE("where neither a file nor standard output can be written both are told") {
