@@ -69,10 +69,10 @@ ExitCode build_once(const BuildArguments& options) {
     try {
       return built(design, options, interrupt.context({}));
     } catch (const LimitsConflict& conflict) {
-      if (options.json) print(conflict_json(design, conflict.report()));
+      if (options.json) print_before_error(conflict_json(design, conflict.report()));
       throw;
     } catch (const NoTrackFound& none) {
-      if (options.json) print(conflict_json(design, none.report()));
+      if (options.json) print_before_error(conflict_json(design, none.report()));
       throw;
     }
   }();

@@ -420,16 +420,12 @@ ExitCode compare(const CompareArguments& options) {
     figures = figures_of(options, design, made.entries, context);
     return made;
   }();
-  write_files(options, comparison, figures.figures);
   const bool files = !(options.svg.empty() && options.html.empty() && options.csv.empty());
-  const std::string kept = files ? kFilesWritten : "";
-  if (options.json) {
-    print(json_of(options, design, comparison.entries), kept);
-  } else {
-    print(emphasised(comparison.heading, Emphasis::heading) + "\n  " + comparison.task + "\n\n" +
-              comparison.table.text(),
-          kept);
-  }
+  write_and_print([&] { write_files(options, comparison, figures.figures); },
+                  options.json ? json_of(options, design, comparison.entries)
+                               : emphasised(comparison.heading, Emphasis::heading) + "\n  " +
+                                     comparison.task + "\n\n" + comparison.table.text(),
+                  files ? kFilesWritten : "");
   require_all_searched(comparison.entries, figures);
   return ExitCode::done;
 }

@@ -96,6 +96,14 @@ void print_problem(const Error& error) {
   print_error(text);
 }
 
+void print_before_error(std::string_view text, std::string_view kept) {
+  try {
+    print(text, kept);
+  } catch (const FileError& lost) {
+    print_problem(lost);
+  }
+}
+
 void print_warnings(const std::vector<Issue>& warnings) {
   for (const Issue& warning : warnings) print_error("glissade: warning: " + to_text(warning) + "\n");
 }

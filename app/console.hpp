@@ -26,6 +26,10 @@ void print_over_line(std::string_view text);
 /// Writes each of an error's issues as "glissade: error: ..." to standard error.
 void print_problem(const Error& error);
 
+/// Prints where an error is on its way: if nothing takes what is printed, that is told before that error, not in its place.
+/// To be called from the handler that throws the error on.
+void print_before_error(std::string_view text, std::string_view kept = {});
+
 /// Writes each as "glissade: warning: ..." to standard error.
 void print_warnings(const std::vector<Issue>& warnings);
 

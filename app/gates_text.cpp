@@ -6,6 +6,7 @@
 #include "app/console.hpp"
 #include "app/summary.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -27,6 +28,21 @@ std::string_view word(InRunTransition transition) {
       return "of two radii";
   }
   return "";
+}
+
+/// @return how many decimals tell the places of neighbouring gates apart [m]: two of a hill, more of a small track
+int decimals_of_places(const std::vector<Gate>& gates) {
+  constexpr int kLeast = 2;           // taste
+  constexpr int kMost = 9;            // budget: beyond any track's
+  constexpr double kSteps = 10.0;     // taste: of the last decimal, from gate to gate
+  constexpr double kRounding = 1e-9;  // rounding: relative, of distances that are a step apart
+  int decimals = kLeast;
+  double step = 0.01;  // theory: of two decimals
+  for (std::size_t i = 1; i < gates.size(); ++i) {
+    const double apart = std::fabs(gates[i].to_edge - gates[i - 1].to_edge) * (1.0 + kRounding);
+    for (; decimals < kMost && apart < kSteps * step; ++decimals) step /= 10.0;
+  }
+  return decimals;
 }
 
 std::string speeds_text(const GateCondition& condition) {
@@ -123,10 +139,12 @@ Table gates_table(const GateTable& table) {
     }
   }
   Table text(std::move(headings));
+  const int finest = decimals_of_places(table.gates);
   for (std::size_t i = 0; i < table.gates.size(); ++i) {
-    std::vector<std::string> row = {std::to_string(table.gates[i].number),
-                                    fixed_text(table.gates[i].to_edge, 2),
-                                    fixed_text(table.positions[i].x, 2), fixed_text(table.positions[i].z, 2)};
+    std::vector<std::string> row = {std::to_string(table.gates[i].number)};
+    for (const double place : {table.gates[i].to_edge, table.positions[i].x, table.positions[i].z}) {
+      row.push_back(fixed_text(place, finest));
+    }
     for (const GateCondition& condition : table.conditions) {
       const GateRide& ride = condition.rides[i];
       const auto told = [&](double value, int decimals) {

@@ -32,14 +32,14 @@ class OutputFiles {
 inline constexpr const char* kFilesWritten = "The files that were asked for are written.";
 
 /// Writes files and then prints: they are there also where nothing takes what is printed, and that is printed also where a
-/// file cannot be written.
+/// file cannot be written. Where both fail both are told.
 /// @param kept  what to say of the files where printing fails, as print() has it
 template <typename Write>
 void write_and_print(const Write& write, const std::string& text, const std::string& kept) {
   try {
     write();
   } catch (const Error&) {
-    print(text);
+    print_before_error(text);
     throw;
   }
   print(text, kept);

@@ -129,23 +129,21 @@ ExitCode judge_design(const RulesArguments& options) {
                       "rules: {sets: [...]} in it; 'glissade rules' lists the sets"});
   }
   const Verdicts verdicts = judged(design, options);
-  {
+  std::string text;
+  if (options.json) {
+    text = verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr);
+  } else {
+    text = emphasised(design.name.empty() ? std::string("Track") : design.name, Emphasis::heading) + "\n";
+    if (!verdicts.rules.empty()) text += "\n" + verdicts_table(verdicts.rules);
+    if (verdicts.made) text += "\n" + shop_table(verdicts.made->workshop.checks);
+  }
+  const auto write = [&] {
     OutputFiles files;
     files.make(options.csv,
                [&](const std::filesystem::path& csv) { write_verdicts_csv(csv, verdicts.rules); });
     files.put_in_place();
-  }
-  const std::string kept = options.csv.empty() ? "" : "The table is written, as " + options.csv + ".";
-  if (options.json) {
-    print(verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr),
-          kept);
-  } else {
-    const std::string heading = design.name.empty() ? std::string("Track") : design.name;
-    std::string text = emphasised(heading, Emphasis::heading) + "\n";
-    if (!verdicts.rules.empty()) text += "\n" + verdicts_table(verdicts.rules);
-    if (verdicts.made) text += "\n" + shop_table(verdicts.made->workshop.checks);
-    print(text, kept);
-  }
+  };
+  write_and_print(write, text, options.csv.empty() ? "" : "The table is written, as " + options.csv + ".");
   if (verdicts.fail()) return ExitCode::faulty;
   require_searched_through(design, verdicts.track);
   return ExitCode::done;

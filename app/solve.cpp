@@ -69,10 +69,10 @@ ExitCode solve_track(const SolveArguments& options) {
     print_warnings(warnings(design, track));
     require_sound(design, track);
   } catch (const LimitsConflict& conflict) {
-    if (options.json) print(conflict_json(design, conflict.report()));
+    if (options.json) print_before_error(conflict_json(design, conflict.report()));
     throw;
   } catch (const NoTrackFound& none) {
-    if (options.json) print(conflict_json(design, none.report()));
+    if (options.json) print_before_error(conflict_json(design, none.report()));
     throw;
   }
   return ExitCode::done;

@@ -215,18 +215,17 @@ void tell_run(const SweepArguments& options, const study::RunReport& report, con
               const std::stop_token& stop) {
   std::string text = run_text(report, directory.string());
   std::string kept = "The rows are written, into " + directory.string();
-  const auto tell = [&] {
-    if (!options.verbosity.quiet()) print(text, kept + ".");
-  };
-  if (!report.complete) return tell();
-  try {
-    text += write_summary(options, directory, stop);
-  } catch (const Error&) {
-    tell();
-    throw;
+  const bool quiet = options.verbosity.quiet();
+  if (report.complete) {
+    try {
+      text += write_summary(options, directory, stop);
+    } catch (const Error&) {
+      if (!quiet) print_before_error(text, kept + ".");
+      throw;
+    }
+    kept += ", and what they say, as " + (directory / "sweep.html").string();
   }
-  kept += ", and what they say, as " + (directory / "sweep.html").string();
-  tell();
+  if (!quiet) print(text, kept + ".");
 }
 
 /// Options that are of no use together, or alone.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -126,6 +127,62 @@ TEST_CASE("what is printed is printed also where a file cannot be written") {
   CHECK(solved.exit_code == 5);
   CHECK_THAT(solved.output, Contains("Travel time"));
   CHECK_THAT(solved.errors, Contains("taken"));
+  const Outcome compared = glissade_run({"compare", shipped("grain_chute"), "--csv", "taken"}, limits);
+  CHECK(compared.exit_code == 5);
+  CHECK_THAT(compared.output, Contains("constant-speed"));
+  CHECK_THAT(compared.errors, Contains("taken"));
+  const Outcome judged =
+      glissade_run({"rules", shipped("hills/garmisch_redesign"), "--csv", "taken"}, limits);
+  CHECK(judged.exit_code == 5);
+  CHECK_THAT(judged.output, Contains("pass"));
+  CHECK_THAT(judged.errors, Contains("taken"));
+}
+
+TEST_CASE("the table of gates tells neighbours apart, whatever the size of the track") {
+  const TempDir place;
+  for (const double scale : {1.0, 0.1, 0.01, 0.001}) {
+    CAPTURE(scale);
+    const auto m = [&](double metres) { return nlohmann::json(scale * metres).dump() + " m"; };
+    std::ofstream(place / "hill.yaml")
+        << "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.03}\n"
+        << "centerline: {kind: in-run, gamma: 36 deg, alpha: 11 deg, r1: " << m(101.1) << ", t: " << m(7.0)
+        << ", e1: " << m(99.0) << ", es: " << m(22.0) << ", e_counts_to: table, transition: cubic}\n"
+        << "gates: {count: 32, measuring_place: " << m(10.0) << "}\n";
+    const Outcome outcome = glissade_run({"gates", (place / "hill.yaml").string()});
+    REQUIRE(outcome.exit_code == 0);
+    std::istringstream lines(outcome.output);
+    std::vector<double> to_edge;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream row(line);
+      int gate = 0;
+      double distance = 0.0;
+      if (row >> gate >> distance) to_edge.push_back(distance);
+    }
+    REQUIRE(to_edge.size() == 32);
+    const double apart = scale * 22.0 / 31.0;
+    for (std::size_t i = 1; i < to_edge.size(); ++i) {
+      CHECK(to_edge[i] - to_edge[i - 1] == Approx(apart).epsilon(0.1));
+    }
+    CHECK_THAT(outcome.output, Contains("to edge [m]"));
+  }
+}
+
+TEST_CASE("where neither a file nor standard output can be written both are told") {
+  const TempDir place;
+  RunLimits limits;
+  limits.directory = place.path();
+  limits.output_to = "/dev/full";
+  std::filesystem::create_directory(place / "taken");
+  for (const auto& [command, design] : {std::pair{"solve", "grain_chute"},
+                                        {"compare", "grain_chute"},
+                                        {"rules", "hills/garmisch_redesign"}}) {
+    CAPTURE(command);
+    const Outcome outcome = glissade_run({command, shipped(design), "--csv", "taken"}, limits);
+    CHECK(outcome.exit_code == 5);
+    CHECK_THAT(outcome.errors, Contains("glissade: error: standard output: ") &&
+                                   Contains("glissade: error: taken: ") && !Contains("is written") &&
+                                   !Contains("are written"));
+  }
 }
 
 TEST_CASE("a pipe or device takes no file, by whatever name it goes") {

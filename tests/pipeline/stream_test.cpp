@@ -590,29 +590,58 @@ TEST_CASE(
   CHECK(starts_at(51.8, 1.82) == Approx(66.356).margin(kShooting));
 }
 
-TEST_CASE("even burden depth is refused where friction or width changes along the track") {
-  const auto problem = [](const std::string& friction, const std::string& width, const std::string& p = "") {
+TEST_CASE("even burden depth is refused where friction or width changes before the finish, and only there") {
+  const auto of = [](const std::string& friction, const std::string& width, const std::string& p = "") {
+    return solve(parse_design(
+        "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 4.3 m, z: 0 m}}\nbody: {" + friction +
+            ", entry_speed: 4 m/s}\nstream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}\n"
+            "centerline: {kind: constant-speed" +
+            p + "}\ncross_section: {kind: u-channel, width: " + width +
+            ", wall_height: 500 mm, thickness: 10 mm}\n",
+        "d.yaml"));
+  };
+  const auto problem = [&](const std::string& friction, const std::string& width) {
     try {
-      static_cast<void>(parse_design(
-          "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 4.3 m, z: 0 m}}\nbody: {" + friction +
-              ", entry_speed: 4 m/s}\nstream: {mass_flow: 650 t/h, bulk_density: 1600 kg/m^3}\n"
-              "centerline: {kind: constant-speed" +
-              p + "}\ncross_section: {kind: u-channel, width: " + width +
-              ", wall_height: 500 mm, thickness: 10 mm}\n",
-          "d.yaml"));
+      static_cast<void>(of(friction, width));
       return std::string();
     } catch (const InputError& error) {
       return std::string(error.what());
     }
   };
-  const std::string list = "friction: [{from: 0 m, angle: 27 deg}, {from: 2 m, angle: 24 deg}]";
-  const std::string narrower = "[{at: 0 m, width: 800 mm}, {at: 3 m, width: 700 mm}]";
-  CHECK(problem("friction_angle: 27 deg", "800 mm").empty());
-  CHECK_THAT(problem(list, "800 mm"),
-             Contains("constant-speed without p, where friction changes along the track"));
-  CHECK_THAT(problem("friction_angle: 27 deg", narrower),
-             Contains("without p, where the width changes along the track"));
-  CHECK(problem(list, narrower, ", p: 9 m^2/s^2").empty());
+  const auto then = [](double from, int angle) {
+    return fmt::format("friction: [{{from: 0 m, angle: 27 deg}}, {{from: {} m, angle: {} deg}}]", from,
+                       angle);
+  };
+  const auto narrower = [](double from) {
+    return fmt::format(
+        "[{{at: 0 m, width: 800 mm}}, {{at: {} m, width: 800 mm}}, {{at: {} m, width: 700 mm}}]", from,
+        from + 1.0);
+  };
+  const Track plain = of("friction_angle: 27 deg", "800 mm");
+  const double length = plain.centerline->length();
+  const double chord = std::hypot(4.3, 3.0);
+  REQUIRE(length > chord + 1e-3);
+  for (const double from : {2.0, chord, 0.5 * (chord + length), length - 1e-6}) {
+    CAPTURE(from);
+    CHECK_THAT(problem(then(from, 24), "800 mm"),
+               Contains("d.yaml:3:") && Contains("constant-speed without p, where friction changes along") &&
+                   Contains("one friction all along, or kind: fastest with objective: even_speed") &&
+                   !Contains("p: 9"));
+    CHECK_THAT(problem("friction_angle: 27 deg", narrower(from)),
+               Contains("d.yaml:6:") && Contains("without p, where the width changes along the track") &&
+                   Contains("one width all along"));
+  }
+  const auto same = [&](const Track& track) {
+    REQUIRE(track.motion.arrived());
+    CHECK(track.centerline->length() == length);
+    CHECK(track.motion.travel_time() == Approx(plain.motion.travel_time()).epsilon(1e-12));
+    CHECK(track.motion.exit_speed() == Approx(4.0).epsilon(1e-9));
+  };
+  same(of(then(length + 1e-6, 24), "800 mm"));
+  same(of(then(100.0, 24), "800 mm"));
+  same(of(then(2.0, 27), "800 mm"));
+  same(of("friction_angle: 27 deg", narrower(length + 1e-6)));
+  CHECK_NOTHROW(of(then(2.0, 24), narrower(2.0), ", p: 16 m^2/s^2"));
 }
 
 TEST_CASE("rides over the friction range tell each its stream; more friction is a deeper one") {

@@ -2,7 +2,6 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
-#include "glissade/design/stream_channel.hpp"
 
 #include "design/checks.hpp"
 
@@ -140,26 +139,10 @@ void check_drag(const BodyDesign& body, Collected& findings) {
           "Without drag the air does nothing.", "drag, or mass and drag_area"});
 }
 
-/// A stream keeps its speed and its depth where it rubs alike all along.
-void check_even_depth(const Design& design, Collected& findings) {
-  const char* const hint = "p: 9 m^2/s^2, the square of a speed, or kind: fastest with objective: even_speed";
-  if (design.body.friction_changes.size() > 1) {
-    report(findings, {"centerline.kind", "body.friction"},
-           {"", "constant-speed without p, where friction changes along the track",
-            "The curve of even burden depth is that of one friction.", hint});
-  }
-  const auto channel = design.cross_section ? stream_channel(*design.cross_section) : std::nullopt;
-  if (!channel || channel->width.is_constant()) return;
-  report(findings, {"centerline.kind", "cross_section.width"},
-         {"", "constant-speed without p, where the width changes along the track",
-          "The curve of even burden depth is that of one width.", hint});
-}
-
 void check_closed_forms(const Design& design, Collected& findings) {
   const bool constant_speed = design.centerline.kind == CenterlineKind::constant_speed;
-  if (!constant_speed || design.centerline.constant_speed_p) return;
-  if (design.stream) return check_even_depth(design, findings);
-  if (is_sliding_point(design.body)) return;
+  if (!constant_speed || design.stream || is_sliding_point(design.body) || design.centerline.constant_speed_p)
+    return;
   report(findings, {"centerline.kind", "body"},
          {"", "constant-speed without p, for a body that is not a sliding point",
           "The p with the least travel time is known for the sliding point alone.",

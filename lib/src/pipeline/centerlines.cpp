@@ -12,6 +12,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/design/stream_channel.hpp"
 #include "glissade/io/profile_csv.hpp"
 #include "glissade/pipeline/solve.hpp"
 
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,10 +114,43 @@ std::optional<double> EvenDepth::least_speed() const {
   return std::max(kept, std::sqrt(body_.law->least_v(0.0)));
 }
 
+/// @return where a width begins to differ from that of the start [m]; infinite of one width
+double narrows_or_widens_from(const WidthLaw& width) {
+  const std::vector<WidthAt>& knots = width.knots();
+  const auto other = std::find_if(knots.begin(), knots.end(),
+                                  [&](const WidthAt& knot) { return knot.width != knots.front().width; });
+  return other == knots.end() ? HUGE_VAL : std::prev(other)->at;
+}
+
+/// A stream keeps its speed and its depth where it rubs alike all along. What begins beyond the finish changes nothing.
+/// @throws InputError if on a track of that length it does not
+void require_alike(const Design& design, double length) {
+  const std::vector<FrictionChange> changes = body_of(design).friction_changes;
+  const std::string hint = " all along, or kind: fastest with objective: even_speed, which keeps the speed ";
+  if (!changes.empty() && changes.front().from < length) {
+    throw InputError({design.where("body.friction"),
+                      "constant-speed without p, where friction changes along the track",
+                      "The curve of even burden depth is that of one friction; this one changes at " +
+                          length_text(changes.front().from) + ".",
+                      "one friction" + hint + "and the depth as even as they can be"});
+  }
+  const double from = narrows_or_widens_from(stream_channel(design.cross_section.value()).value().width);
+  if (from >= length) return;
+  throw InputError({design.where("cross_section.width"),
+                    "constant-speed without p, where the width changes along the track",
+                    "The curve of even burden depth is that of one width; this one changes from " +
+                        length_text(from) + " on.",
+                    "one width" + hint + "as even as it can be"});
+}
+
 /// @throws InputError if at the entry speed there is no such track, with the speed from which on there is
 CenterlinePtr make_even_depth(const Design& design, const Endpoints& endpoints) {
+  require_alike(design, math::hypot(endpoints.run, endpoints.drop));  // whatever the track
   const EvenDepth even(design, endpoints);
-  if (const auto curve = even.track(even.entry())) return std::make_shared<ConstantSpeedCurve>(*curve);
+  if (const auto curve = even.track(even.entry())) {
+    require_alike(design, curve->length());
+    return std::make_shared<ConstantSpeedCurve>(*curve);
+  }
   constexpr double kBeyond = 1.0 + 1e-3;  // rounding: not rounded onto what is not enough
   constexpr int kDigits = 4;              // taste
   const auto text = [](double speed, int digits) { return rounded_text(speed, digits) + " m/s"; };
