@@ -133,6 +133,13 @@ TEST_CASE("a body that cannot be is refused with its value, its bound and a way 
              Contains("head_wind: 300 m/s is out of range"));
   CHECK_THAT(problems_of_body("{friction_angle: 3 deg, centre_height: 0.6 m}", "constant-speed"),
              Contains("constant-speed without p, for a body that is not a sliding point"));
+  // A list of one friction is that friction.
+  CHECK(
+      problems_of_body("{friction: [{from: 0 m, angle: 3 deg}, {from: 1 m, angle: 3 deg}]}", "constant-speed")
+          .empty());
+  CHECK_THAT(problems_of_body("{friction: [{from: 0 m, angle: 3 deg}, {from: 1 m, angle: 4 deg}]}",
+                              "constant-speed"),
+             Contains("constant-speed without p, for a body that is not a sliding point"));
 }
 
 TEST_CASE("beyond reach is told of what rolls by its own resistance, and only where the theorem holds") {

@@ -158,8 +158,10 @@ Friction least_friction(const BodyDesign& body) {
 }
 
 bool is_sliding_point(const BodyDesign& body) {
-  return body.slides() && centre_height(body) == 0.0 && body.friction_changes.empty() &&
-         body.head_wind == 0.0;
+  const bool rubs_alike =
+      std::all_of(body.friction_changes.begin(), body.friction_changes.end(),
+                  [&](const FrictionFrom& change) { return change.friction == body.friction; });
+  return body.slides() && centre_height(body) == 0.0 && rubs_alike && body.head_wind == 0.0;
 }
 
 double centre_height(const BodyDesign& body) {
