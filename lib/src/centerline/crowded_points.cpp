@@ -4,6 +4,15 @@
 
 namespace glissade::centerline {
 
+bool lose_order(const std::vector<Vec2>& points) {
+  constexpr int kFewest = 4;  // taste: a slip or two are none
+  const double ahead = points.back().x - points.front().x;
+  int back = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    back += (points[i + 1].x - points[i].x) * ahead <= 0.0 ? 1 : 0;
+  return back >= kFewest;
+}
+
 std::size_t lost_from(const std::vector<Vec2>& points, std::size_t first, double reach) {
   constexpr std::size_t kFewest = 4;  // taste: the mean of fewer is hardly better than the first of them
   constexpr std::size_t kPart = 8;    // taste: of all points

@@ -7,6 +7,9 @@
 
 namespace glissade::centerline {
 
+/// Whether steps from point to point run back: a crowd's do, those along a wave, however steep, do not.
+[[nodiscard]] bool lose_order(const std::vector<Vec2>& points);
+
 /// How many points from one on lie so close together that the way from the first to the last of them is lost in noise: the
 /// mean of them is within this reach of that of as many behind them.
 /// @return 1 where they are no crowd

@@ -695,6 +695,8 @@ class CrowdedPoints {
  public:
   CrowdedPoints(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places)
       : points_(points), places_(places), noise_(noise_of(points, places)) {
+    if (!lose_order(points)) return;
+    is_crowded_ = true;
     const std::vector<Vec2> back(points.rbegin(), points.rend());
     at_ends_ = lost_from(points, 0, kCrowd * noise_) > 1 || lost_from(back, 0, kCrowd * noise_) > 1;
   }
@@ -702,6 +704,7 @@ class CrowdedPoints {
   /// The curve, or another one if it overhangs, bends at once at an end or leaves more than noise beside a crowd: to the means of
   /// crowds at the ends, then to those of wider and wider ones all along, until one does not.
   [[nodiscard]] FittedCurve led_aright(FittedCurve found) const {
+    if (!is_crowded_) return found;
     constexpr std::array kReaches = {2.0, 4.0, 8.0};  // taste: standard deviations
     FittedCurve best = std::move(found);
     double least = left_by(best);
@@ -739,6 +742,7 @@ class CrowdedPoints {
   const std::vector<Vec2>& points_;
   const std::optional<LastPlaces>& places_;
   double noise_;
+  bool is_crowded_ = false;
   bool at_ends_ = false;
 };
 
