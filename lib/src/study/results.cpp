@@ -55,7 +55,9 @@ void for_each_line(const Results& results, const Progress& progress, const std::
   refuse_strays(results);
   const std::string heading = heading_of(results);
   for (std::uint64_t chunk = 0; chunk < results.chunks(); ++chunk) {
-    if (stop.stop_requested()) throw Interrupted({results.directory().string(), "interrupted", "", ""});
+    if (stop.stop_requested())
+      throw Interrupted({results.directory().string(), "interrupted; the rows that are written stay",
+                         "The same command goes on where this one ended.", ""});
     if (progress)
       progress("reading rows", static_cast<double>(chunk) / static_cast<double>(results.chunks()));
     const fs::path file = chunk_path(results.directory(), chunk);
