@@ -271,6 +271,16 @@ TEST_CASE("a wind from behind drives a body from rest up to a finish above the s
                     Catch::Matchers::Contains("from rest the finish must lie below the start"));
 }
 
+TEST_CASE("a speed that a wind from behind gives asks for no drop, nor for a longer track") {
+  Problem problem = task(0.1, 0.5, 50.0, ObjectiveKind::least_length);
+  problem.body.head_wind = -60.0;
+  problem.finish.free_range = {10.0, 12.0};
+  problem.finish.free_drop = {1.0, 2.0};
+  const Optimum shortest = solved(problem);
+  CHECK(std::fabs(shortest.centerline->length() / std::hypot(10.0, 1.0) - 1.0) < 1e-6);
+  CHECK(shortest.report.exit_speed > 50.0);
+}
+
 TEST_CASE("of a run of a foot a fall of forty is no more than others") {
   Problem problem = task(0.1, 0.0, 20.0, ObjectiveKind::travel_time);
   problem.finish.kind = FinishKind::vertical_line;

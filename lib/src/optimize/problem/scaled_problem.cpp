@@ -424,7 +424,7 @@ double nearest(const Range& range) {
   return value;
 }
 
-/// The drop of free fall to the speed that is to be reached, which no track has less of where no wind blows it on [m].
+/// The drop of free fall to the speed that is to be reached [m]. No track has less of it, but where a wind blows the body on.
 double fall_to_lowest_speed(const Problem& problem) {
   const double speed = problem.limits.exit_speed.lowest.value_or(0.0);
   const double entry = problem.body.entry_speed;
@@ -436,18 +436,20 @@ double chord_of(const Problem& problem) {
   const double run = std::fabs(problem.endpoints.run);
   const double drop = problem.endpoints.drop;
   const Finish& finish = problem.finish;
-  const double fall = fall_to_lowest_speed(problem);
+  const bool is_blown = problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0;
+  const double fall = is_blown ? 0.0 : fall_to_lowest_speed(problem);
   switch (finish.kind) {
     case FinishKind::point:
       break;
-    case FinishKind::vertical_line: {
-      const bool is_blown = problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0;
-      return math::hypot(run, std::max(is_blown ? 0.0 : fall, nearest(finish.free_range)));
-    }
+    case FinishKind::vertical_line:
+      return math::hypot(run, std::max(fall, nearest(finish.free_range)));
     case FinishKind::level:
       return math::hypot(nearest(finish.free_range), drop);
-    case FinishKind::anywhere:
-      return math::hypot(nearest(finish.free_range), std::max(fall, nearest(finish.free_drop)));
+    case FinishKind::anywhere: {
+      const double away = math::hypot(nearest(finish.free_range), std::max(fall, nearest(finish.free_drop)));
+      // Next to the start nothing else tells of a size.
+      return away > 0.0 ? away : fall_to_lowest_speed(problem);
+    }
   }
   return math::hypot(run, drop);
 }
