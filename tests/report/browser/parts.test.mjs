@@ -210,7 +210,7 @@ describe("parts of a workshop", () => {
     for (const [width, media] of [[390, "screen"], [718, "print"]]) {
       await page.setViewportSize({ width, height: 900 });
       await page.emulateMedia({ media });
-      await page.waitForTimeout(100);
+      await drawn(page);
       const stick = await page.evaluate(() => [...document.querySelectorAll("#parts, #part, #part svg, #parts-view, #parts .scroll")]
         .filter((node) => node.getBoundingClientRect().right > innerWidth + 1).map((node) => node.id || node.className));
       assert.deepEqual(stick, [], `at ${width}`);

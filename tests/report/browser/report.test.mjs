@@ -61,6 +61,7 @@ describe("every shipped design", () => {
       assert.equal(await page.title(), doc.design.name);
       // On a phone the page is no wider than its room: names of files have no place to break.
       await page.setViewportSize({ width: 360, height: SMALL.viewport.height });
+      await drawn(page);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 360, "wider than a phone");
       await page.setViewportSize(SMALL.viewport);
     });
@@ -659,13 +660,19 @@ describe("a comparison", () => {
     await page.goto(`file://${file}`);
     for (const width of [1440, 390]) {
       await page.setViewportSize({ width, height: 900 });
+      await drawn(page);
       const [content, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
       assert.ok(content <= room, `${content} px of content in ${room}`);
-      // A table that goes on beyond its room says so, one that does not says nothing.
-      const [goesOn, height] = await page.evaluate(() => {
+      // A table that goes on beyond its room says so, one that does not says nothing. What a scrolled box drives follows
+      // its size some frames later.
+      const state = () => {
         const holder = document.querySelector(".scroll");
-        return [holder.scrollWidth > holder.clientWidth, document.querySelector(".more").getBoundingClientRect().height];
-      });
+        const goesOn = holder.scrollWidth > holder.clientWidth;
+        const { height } = document.querySelector(".more").getBoundingClientRect();
+        return { goesOn, height, agrees: height > 10 === goesOn };
+      };
+      await page.waitForFunction(`(${state})().agrees`).catch(() => undefined);
+      const { goesOn, height } = await page.evaluate(state);
       assert.equal(goesOn, width === 390);
       assert.equal(height > 10, goesOn, `a remark ${height} px high at ${width}`);
     }
@@ -705,7 +712,7 @@ describe("page", () => {
     for (const [width, media] of [[1600, "screen"], [390, "screen"], [718, "print"]]) {
       await page.setViewportSize({ width, height: 900 });
       await page.emulateMedia({ media });
-      await page.waitForTimeout(100);
+      await drawn(page);
       const [content, room] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
       assert.ok(content <= room, `${content} px of content in ${room} at ${width}`);
     }
