@@ -254,7 +254,7 @@ std::optional<Finding> find_unreachable(const Design& design) {
   const double mu = friction.coefficient();
   if (finish_is_unbounded(track) || is_drawn(design.centerline.kind)) return {};
   // A wind from behind can blow a body where no slope takes it; with speed, the theorem is told of the sliding point.
-  if (body.head_wind < 0.0 && body.drag_per_metre > 0.0) return {};
+  if (body.is_driven_by_wind()) return {};
   if (body.entry_speed > 0.0 && (design.stream || !is_sliding_point(body))) return {};
   // It is about the centre of mass, whose ends lie up to this much more favourably than the track's.
   const double height = centre_height(body);

@@ -29,7 +29,7 @@ void check_coordinates(const Vec3& position, const std::string& key_path, Collec
   }
 }
 
-/// A wind from behind drives the body, too: how far, its ride tells.
+/// A wind from behind drives the body, too: how far, its ride tells. That it has no drag for that is told beside it.
 bool is_blown(const Design& design) {
   return design.body.head_wind < 0.0;
 }
@@ -80,18 +80,14 @@ void check_free_range(const Range& range, const std::string& key, Collected& fin
   if (range.highest) check_coordinates({*range.highest, 0.0, 0.0}, "track.finish." + key, findings);
 }
 
-bool leaves_out(const Range& range, double place) {
-  return range.lowest.value_or(place) > place || range.highest.value_or(place) < place;
-}
-
 /// It is the speed to be reached that says how far a track with a free end has to fall, or bounds that keep the end away from the
 /// other one.
 void check_free_both_ways(const Design& design, const char* end, Collected& findings) {
   const TrackDesign& track = design.track;
   const bool given =
       design.limits && design.limits->exit_speed.lowest.value_or(0.0) > design.body.entry_speed;
-  const bool is_away = !track.free_start && (leaves_out(track.free_range, track.start.x) ||
-                                             leaves_out(track.free_height, track.start.z));
+  const bool is_away = !track.free_start &&
+                       (!track.free_range.holds(track.start.x) || !track.free_height.holds(track.start.z));
   if (given || is_away) return;
   report(
       findings, {"limits.exit_speed", std::string("track.") + end, "track.edge", "limits", "track"},

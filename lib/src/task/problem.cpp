@@ -61,10 +61,10 @@ void check_ends(const Problem& problem, Checker& check) {
   }
   if (fixes_drop(problem.finish.kind)) {
     check.number("endpoints.drop", problem.endpoints.drop, true, "the drop is a finite length");
-    const bool is_blown = problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0;
-    check.require(problem.body.entry_speed > 0.0 || problem.endpoints.drop > 0.0 || is_blown,
-                  "endpoints.drop: " + exact_text(problem.endpoints.drop) + " m",
-                  "from rest the finish must lie below the start", "a positive drop, or an entry_speed");
+    check.require(
+        problem.body.entry_speed > 0.0 || problem.endpoints.drop > 0.0 || is_driven_by_wind(problem.body),
+        "endpoints.drop: " + exact_text(problem.endpoints.drop) + " m",
+        "from rest the finish must lie below the start", "a positive drop, or an entry_speed");
   }
   if (problem.finish.kind == FinishKind::level) {
     check.require(problem.endpoints.drop != 0.0, "endpoints.drop: 0 m", "a level finish needs a drop");
@@ -107,19 +107,13 @@ void check_stream_limits(const Problem& problem, Checker& check) {
                 "what rubs on the floor follows from a mass flow", "a BulkStream as the body's law");
 }
 
-/// Whether a coordinate of the finish stays away from that of the start.
-bool leaves_out_start(const Range& range) {
-  return range.lowest.value_or(0.0) > 0.0 || range.highest.value_or(0.0) < 0.0;
-}
-
 void check_objective(const Problem& problem, Checker& check) {
   check.number("objective.exit_speed_weight", problem.objective.exit_speed_weight,
                problem.objective.exit_speed_weight >= 0.0, "a weight is not negative");
   const Range& exit_speed = problem.limits.exit_speed;
   const bool speed_given = exit_speed.lowest && *exit_speed.lowest > problem.body.entry_speed;
   const bool anywhere = problem.finish.kind == FinishKind::anywhere;
-  const bool is_away =
-      leaves_out_start(problem.finish.free_range) || leaves_out_start(problem.finish.free_drop);
+  const bool is_away = !problem.finish.free_range.holds(0.0) || !problem.finish.free_drop.holds(0.0);
   if (anywhere && !is_away) {
     check.require(speed_given, "finish: free both ways, without a lowest exit speed above the entry speed",
                   "it is the speed to be reached that says how far the track has to fall",

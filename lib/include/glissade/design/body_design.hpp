@@ -99,6 +99,8 @@ struct BodyDesign {
   std::optional<double> centre_height = {};
   BodyKind kind = {};
 
+  /// @return whether the wind, too, can drive it: it blows from behind a body that has drag
+  [[nodiscard]] bool is_driven_by_wind() const { return head_wind < 0.0 && drag_per_metre > 0.0; }
   [[nodiscard]] bool slides() const { return std::holds_alternative<SlidingDesign>(kind); }
   /// @return the ball; null of another kind
   [[nodiscard]] const RollingDesign* rolling() const { return std::get_if<RollingDesign>(&kind); }

@@ -79,6 +79,11 @@ struct Body {
 /// @param start  arc length of the whole track [m]; >= 0
 [[nodiscard]] Body body_from(Body body, double start);
 
+/// Whether the wind, too, can drive a body: it blows from behind one that has drag.
+[[nodiscard]] constexpr bool is_driven_by_wind(const Body& body) {
+  return body.head_wind < 0.0 && body.drag_per_metre > 0.0;
+}
+
 /// Whether a body is the sliding point of Coulomb's law with one friction everywhere and no wind, whose
 /// optimum without limits, constant-speed track and reach have closed forms (docs/theory.md).
 [[nodiscard]] bool is_sliding_point(const Body& body);

@@ -18,6 +18,10 @@ struct Range {
   [[nodiscard]] static constexpr Range fixed(double value) { return {value, value}; }
   [[nodiscard]] constexpr bool limited() const { return lowest.has_value() || highest.has_value(); }
   [[nodiscard]] constexpr bool is_fixed() const { return limited() && lowest == highest; }
+  /// @return whether `value` lies within, its ends included
+  [[nodiscard]] constexpr bool holds(double value) const {
+    return lowest.value_or(value) <= value && value <= highest.value_or(value);
+  }
 
   friend bool operator==(const Range&, const Range&) = default;
 };

@@ -89,8 +89,7 @@ std::optional<double> left_at(const Problem& problem, double mu) {
 bool only_loses(const Body& body) {
   const bool point = !body.law || (body.law->inertia() == 1.0 && body.law->centre_height() == 0.0 &&
                                    !body.law->depends_on_speed() && body.law->side() == 1.0);
-  const bool pushed = body.head_wind < 0.0 && body.drag_per_metre > 0.0;
-  return point && !pushed && !body.landing && !body.approach;
+  return point && !is_driven_by_wind(body) && !body.landing && !body.approach;
 }
 
 /// How far down the finish may lie; none where as far as one likes.

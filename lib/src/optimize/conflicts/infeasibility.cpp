@@ -99,7 +99,7 @@ std::optional<Conflict> beyond_reach(const Problem& problem) {
   const double height = problem.body.law ? problem.body.law->centre_height() : 0.0;
   const double favour = height == 0.0 ? 0.0 : height * (std::sqrt(1.0 + mu * mu) + mu);
   if (problem.endpoints.drop + favour > mu * run) return std::nullopt;
-  if (problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0) return std::nullopt;
+  if (is_driven_by_wind(problem.body)) return std::nullopt;
   Conflict conflict;
   conflict.limits = {{{LimitId::friction}, {}}, {{LimitId::finish}, {}}};
   conflict.relaxations.push_back(

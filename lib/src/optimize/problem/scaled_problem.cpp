@@ -436,8 +436,7 @@ double chord_of(const Problem& problem) {
   const double run = std::fabs(problem.endpoints.run);
   const double drop = problem.endpoints.drop;
   const Finish& finish = problem.finish;
-  const bool is_blown = problem.body.head_wind < 0.0 && problem.body.drag_per_metre > 0.0;
-  const double fall = is_blown ? 0.0 : fall_to_lowest_speed(problem);
+  const double fall = is_driven_by_wind(problem.body) ? 0.0 : fall_to_lowest_speed(problem);
   switch (finish.kind) {
     case FinishKind::point:
       break;
