@@ -338,6 +338,23 @@ TEST_CASE("an interrupted run says that it can go on") {
   CHECK_THROWS_AS(run(study_of({vary("body.friction_angle=5deg:25deg:3")}), options), Interrupted);
 }
 
+TEST_CASE("an interrupted reading says what it leaves: rows that a sweep goes on from, or no table at all") {
+  const TempDir place;
+  RunOptions options;
+  options.directory = place.path() / "s";
+  run(study_of({vary("body.friction_angle=5deg:15deg:3")}), options);
+  const Results results = Results::open(place.path() / "s");
+  std::stop_source stop;
+  stop.request_stop();
+  CHECK_THROWS_WITH(
+      results.for_each([](const Row&) {}, {}, stop.get_token()),
+      Contains("s: interrupted; the rows that are written stay") && Contains("goes on where this one ended"));
+  CHECK_THROWS_WITH(merge(results, place.path() / "all.csv", {}, stop.get_token()),
+                    Contains("all.csv: interrupted; the table is not written") &&
+                        Contains("The rows stay as they are; the same command begins the table anew."));
+  CHECK_FALSE(std::filesystem::exists(place.path() / "all.csv"));
+}
+
 TEST_CASE("a shard is i/n") {
   CHECK(Shard::parse("3/16").index == 3);
   CHECK(Shard::parse("3/16").count == 16);

@@ -50,14 +50,14 @@ void refuse_strays(const Results& results) {
 }
 
 /// The lines of all chunks in their order, each with its file and number.
+/// @param interrupted  what is told where `stop` asks for the end
 void for_each_line(const Results& results, const Progress& progress, const std::stop_token& stop,
+                   const Issue& interrupted,
                    const std::function<void(const std::string&, const fs::path&, std::size_t)>& visit) {
   refuse_strays(results);
   const std::string heading = heading_of(results);
   for (std::uint64_t chunk = 0; chunk < results.chunks(); ++chunk) {
-    if (stop.stop_requested())
-      throw Interrupted({results.directory().string(), "interrupted; the rows that are written stay",
-                         "The same command goes on where this one ended.", ""});
+    if (stop.stop_requested()) throw Interrupted(interrupted);
     if (progress)
       progress("reading rows", static_cast<double>(chunk) / static_cast<double>(results.chunks()));
     const fs::path file = chunk_path(results.directory(), chunk);
@@ -143,7 +143,9 @@ std::vector<std::uint64_t> Results::missing() const {
 void Results::for_each(const std::function<void(const Row&)>& visit, const Progress& progress,
                        const std::stop_token& stop) const {
   std::uint64_t next = 0;
-  for_each_line(*this, progress, stop,
+  const Issue interrupted{directory_.string(), "interrupted; the rows that are written stay",
+                          "The same command goes on where this one ended.", ""};
+  for_each_line(*this, progress, stop, interrupted,
                 [&](const std::string& line, const fs::path& file, std::size_t number) {
                   visit(row_of(*this, line, next++, file, number));
                 });
@@ -155,7 +157,9 @@ std::map<Status, std::uint64_t> merge(const Results& results, const fs::path& fi
   table.write(heading_of(results) + "\n");
   std::map<Status, std::uint64_t> counts;
   std::uint64_t next = 0;
-  for_each_line(results, progress, stop,
+  const Issue interrupted{file.string(), "interrupted; the table is not written",
+                          "The rows stay as they are; the same command begins the table anew.", ""};
+  for_each_line(results, progress, stop, interrupted,
                 [&](const std::string& line, const fs::path& place, std::size_t number) {
                   ++counts[row_of(results, line, next++, place, number).status];
                   table.write(line + "\n");

@@ -163,7 +163,8 @@ class Results {
   /// @return numbers of the chunks that are not there
   [[nodiscard]] std::vector<std::uint64_t> missing() const;
   /// Every row in the order of their numbers, each checked.
-  /// @throws FileError if a chunk is missing, cannot be read, or is not what the manifest says, with the place
+  /// @throws FileError if a chunk is missing, cannot be read, or is not what the manifest says, with the place; Interrupted if
+  ///         `stop` asks for it
   void for_each(const std::function<void(const Row&)>& visit, const Progress& progress = {},
                 const std::stop_token& stop = {}) const;
 
@@ -184,7 +185,7 @@ class Results {
 
 /// All rows in one table, each number once.
 /// @return how many points ended how
-/// @throws FileError as Results::for_each(), or if `file` cannot be written
+/// @throws FileError as Results::for_each(), or if `file` cannot be written; Interrupted if `stop` asks for it, without a table
 std::map<Status, std::uint64_t> merge(const Results& results, const std::filesystem::path& file,
                                       const Progress& progress = {}, const std::stop_token& stop = {});
 
