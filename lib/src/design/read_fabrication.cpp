@@ -2,6 +2,7 @@
 
 #include "glissade/core/number_text.hpp"
 
+#include "core/counted.hpp"
 #include "design/read_process.hpp"
 #include "design/read_rules.hpp"
 
