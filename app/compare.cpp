@@ -401,7 +401,7 @@ void require_all_searched(const std::vector<Entry>& entries, const KindsFigures&
   throw ConvergenceError({entries.front().design.file.string(),
                           "a search for the figures over friction ended early: points are missing there",
                           "Each kind that is searched for is searched for at every friction.",
-                          "a larger --time-budget, or no --html and --svg"});
+                          hint_to_search_on(figures.interrupted) + ", or no --html and --svg"});
 }
 
 ExitCode compare(const CompareArguments& options) {

@@ -178,6 +178,7 @@ class OverFriction {
   }
 
   [[nodiscard]] bool was_cut() const { return ended_early_; }
+  [[nodiscard]] bool was_interrupted() const { return stopped_; }
 
  private:
   /// A curve that is drawn is the same at every friction: fitting it to measured points takes its time once.
@@ -231,6 +232,7 @@ KindsFigures over_friction(Design design, const Entry& own, const RunContext& co
       slopes.ys.push_back(track ? track->steepest_slope_angle.degrees() : missing);
     }
     made.ended_early = made.ended_early || tracks.was_cut();
+    made.interrupted = made.interrupted || tracks.was_interrupted();
     time.lines.push_back(std::move(times));
     slope.lines.push_back(std::move(slopes));
   }

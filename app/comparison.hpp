@@ -47,6 +47,7 @@ struct Entry {
 struct KindsFigures {
   std::vector<Figure> figures;
   bool ended_early = false;
+  bool interrupted = false;  ///< asked to; then ended_early holds, too
 };
 
 /// Shapes and speeds of every kind, travel time and steepest slope of each over friction.

@@ -212,7 +212,9 @@ TEST_CASE("SIGTERM ends a search at once, Ctrl-C ends it with the best track so 
   const Ending ended = interrupted(arguments, place.path(), "finer track", SIGINT);
   INFO(ended.errors);
   CHECK((ended.exit_code == 4 || ended.exit_code == 0));
-  if (ended.exit_code == 4) CHECK_THAT(ended.errors, Contains("stopped: the best track so far"));
+  if (ended.exit_code == 4)
+    CHECK_THAT(ended.errors, Contains("stopped: the best track so far") &&
+                                 Contains("Try: the same command, left to come to its end"));
   CHECK(ended.time <= kPatience);
 }
 
@@ -244,7 +246,9 @@ TEST_CASE(
     const int code = running.end_by(SIGINT);
     INFO(running.errors());
     CHECK(code == 4);
-    CHECK_THAT(running.errors(), Contains(item.told) && Contains("--time-budget"));
+    CHECK_THAT(running.errors(), Contains(item.told) &&
+                                     Contains("Try: the same command, left to come to its end") &&
+                                     !Contains("--time-budget"));
     CHECK_THAT(running.output(), Contains("travel time") && Contains(" s  "));
     CHECK_THAT(bytes_of(place / "page.html"), Contains("</html>"));
     CHECK_THAT(bytes_of(place / "figures.svg"), Contains("Profile"));
@@ -262,7 +266,8 @@ TEST_CASE("Ctrl-C in the search of a redesign leaves its table and its design, m
   const int code = running.end_by(SIGINT);
   INFO(running.errors());
   CHECK(code == 4);
-  CHECK_THAT(running.errors(), Contains("the search for the free shape ended early: "));
+  CHECK_THAT(running.errors(), Contains("the search for the free shape ended early: ") &&
+                                   Contains("Try: the same command, left to come to its end"));
   CHECK_THAT(running.output(), Contains("free, least-load") && Contains("feasible, not converged"));
   CHECK_THAT(bytes_of(place / "made.yaml"), Contains("glissade: 1"));
 }

@@ -342,11 +342,11 @@ class HoodSearch {
   }
 
   [[nodiscard]] EarlyHood why() const {
-    if (context_.stop.stop_requested()) return {"stopped: the best hood and track so far", true};
-    if (out_of_time_) return {"the time budget ran out: the best hood and track so far", true};
+    if (context_.stop.stop_requested()) return {"stopped: the best hood and track so far", true, true};
+    if (out_of_time_) return {"the time budget ran out: the best hood and track so far", true, false};
     return {"the hood is not known to a thousandth of its bounds after " +
                 std::to_string(optimizer::kMostBoxValues) + " tries: the best one so far",
-            false};
+            false, false};
   }
 
   [[noreturn]] void throw_none() const {

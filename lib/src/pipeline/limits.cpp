@@ -484,14 +484,18 @@ std::string searched_name(const Design& design) {
          (design.limits ? " within the limits" : ", searched for");
 }
 
+std::string hint_to_search_on(bool interrupted) {
+  return interrupted ? "the same command, left to come to its end" : "a larger --time-budget";
+}
+
 std::optional<Issue> search_problem(const Design& design, const Track& track) {
-  if (track.early_hood) {
-    const bool early = track.early_hood->ended_early;
+  if (const auto& hood = track.early_hood) {
     return Issue{design.where("hood"),
-                 std::string("the search for the hood ") + (early ? "ended early: " : "did not converge: ") +
-                     track.early_hood->message,
+                 std::string("the search for the hood ") +
+                     (hood->ended_early ? "ended early: " : "did not converge: ") + hood->message,
                  "Another hood within its bounds may make a better transfer.",
-                 early ? "a larger --time-budget" : "narrower bounds of radius, impact_angle and exit_angle"};
+                 hood->ended_early ? hint_to_search_on(hood->interrupted)
+                                   : "narrower bounds of radius, impact_angle and exit_angle"};
   }
   if (!track.search || track.search->status == OptimizeStatus::optimal) return {};
   const bool ended_early = track.search->ended_early;
@@ -506,10 +510,12 @@ std::optional<Issue> search_problem(const Design& design, const Track& track) {
           : "Every limit holds, but a better track may be near: the first-order residual is " +
                 rounded_text(track.search->first_order_residual, 2) + " instead of at most " +
                 rounded_text(OptimizeOptions{}.tolerance, 2) + ".";
-  return Issue{design.where("limits"),
-               "the search for the track " + searched_name(design) +
-                   (ended_early ? " ended early: " : " did not converge: ") + track.search->message,
-               why, ended_early ? "a larger --time-budget" : "other limits; more time would not help"};
+  return Issue{
+      design.where("limits"),
+      "the search for the track " + searched_name(design) +
+          (ended_early ? " ended early: " : " did not converge: ") + track.search->message,
+      why,
+      ended_early ? hint_to_search_on(track.search->interrupted) : "other limits; more time would not help"};
 }
 
 }  // namespace glissade

@@ -746,7 +746,7 @@ std::optional<Issue> Redesign::search_problem() const {
                std::string("the search for the free shape ") +
                    (early ? "ended early: " : "did not converge: ") + search->message,
                "It keeps every limit, but a better shape may be near.",
-               early ? "a larger --time-budget" : "another goal; more time would not help"};
+               early ? hint_to_search_on(search->interrupted) : "another goal; more time would not help"};
 }
 
 Design redesigned(const Design& design, const Redesign& found, bool free) {

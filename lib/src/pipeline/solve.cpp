@@ -229,6 +229,7 @@ void tell_of_hood(std::optional<EarlyHood> search, Track& track) {
   report.status = OptimizeStatus::feasible_not_converged;
   report.message = track.early_hood->message;
   report.ended_early = report.ended_early || track.early_hood->ended_early;
+  report.interrupted = report.interrupted || track.early_hood->interrupted;
 }
 
 }  // namespace

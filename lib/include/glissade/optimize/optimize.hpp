@@ -115,6 +115,7 @@ struct OptimizeReport {
   Conflict conflict;
 
   bool ended_early = false;  ///< asked to, or the time budget ran out
+  bool interrupted = false;  ///< asked to; then ended_early holds, too
   int iterations = 0;        ///< rounds of Newton steps, at least one a mesh
   int evaluations = 0;       ///< of objective and limits with gradients
   double seconds = 0.0;      ///< wall clock; the only field that differs between two runs

@@ -148,6 +148,9 @@ struct LinerLoss {
 /// Whether a search within limits, or that for a hood, ended before it converged.
 /// @return how it ended and what that means; none if it converged, or there was none
 [[nodiscard]] std::optional<Issue> search_problem(const Design& design, const Track& track);
+/// @param interrupted  whether it was asked to; else its time ran out
+/// @return what lets a search that ended early come to its end
+[[nodiscard]] std::string hint_to_search_on(bool interrupted);
 
 /// What a user should hear of beside a sound answer: something asked for that had no effect, or data that may
 /// not say what they seem to.

@@ -59,6 +59,7 @@ struct FastestWithin {
 struct EarlyHood {
   std::string message;       ///< "the time budget ran out: the best hood and track so far"
   bool ended_early = false;  ///< asked to, or the time budget ran out
+  bool interrupted = false;  ///< asked to; then ended_early holds, too
 };
 
 /// A centerline with the ride down it and the two rides that it is measured by.
