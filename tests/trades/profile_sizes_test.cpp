@@ -204,6 +204,24 @@ TEST_CASE("a curved track has radii on its sheets, to six digits") {
     CHECK(std::stod(table.rows[i][7]) == Approx(1.0 / stations[i].curvature).epsilon(1e-5));
 }
 
+TEST_CASE(
+    "without a step in-runs have a station every metre, and shorter and longer tracks as many as one reads") {
+  for (const double size : kSizes) {
+    INFO(size << " m");
+    const Design design = design_of(size, "straight");
+    const Track track = solve(design);
+    const double length = track.centerline->length();
+    const std::vector<ProfileStation> stations = coordinate_table(design, track);
+    const double step = stations[1].arc_length - stations[0].arc_length;
+    if (length >= 20.0 && length <= 2000.0) {
+      CHECK(step == Approx(1.0).epsilon(1e-12));
+    } else {
+      CHECK(stations.size() >= 50);
+      CHECK(stations.size() <= 260);
+    }
+  }
+}
+
 TEST_CASE("a step that makes too many stations is refused with one that does not") {
   for (const double size : kSizes) {
     const Design design = design_of(size, "straight");

@@ -41,11 +41,19 @@ double round_step_along(double length) {
   return step >= 5.0 * decade ? 5.0 * decade : step >= 2.0 * decade ? 2.0 * decade : decade;
 }
 
+double step_along(double length, const ProfileOptions& options) {
+  constexpr double kMetre = 1.0;  // what in-runs are laid out by
+  constexpr double kShort = 20.0;
+  constexpr double kLong = 2000.0;
+  return options.step.value_or(length < kShort || length > kLong ? round_step_along(length) : kMetre);
+}
+
 void require_options(const Track& track, const ProfileOptions& options) {
   const double length = track.centerline->length();
-  if (!(options.step > 0.0) || length / options.step > kMostStations) {
+  const double step = step_along(length, options);
+  if (!(step > 0.0) || length / step > kMostStations) {
     throw InputError(
-        {"--step", "a step of " + length_text(options.step) + " is out of range",
+        {"--step", "a step of " + length_text(step) + " is out of range",
          "It is above 0, and a track of " + length_text(length) + " has at most 100 000 stations.",
          length_text(round_step_along(length))});
   }
@@ -71,10 +79,11 @@ void require_options(const Track& track, const ProfileOptions& options) {
 /// Arc lengths of the stations between the letters, ascending.
 std::vector<double> rows_of(const Centerline& centerline, const ProfileOptions& options) {
   const double length = centerline.length();
+  const double step = step_along(length, options);
   const double reach = options.row == CountedFrom::run ? centerline.endpoints().run : length;
   std::vector<double> rows;
-  for (int i = 0; i * options.step <= reach; ++i) {
-    const double at = i * options.step;
+  for (int i = 0; i * step <= reach; ++i) {
+    const double at = i * step;
     if (options.row == CountedFrom::arc_length) rows.push_back(at);
     if (options.row == CountedFrom::to_edge) rows.push_back(length - at);
     if (options.row == CountedFrom::run) rows.push_back(centerline.arc_length_at_run(reach - at));

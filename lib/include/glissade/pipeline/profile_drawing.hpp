@@ -27,7 +27,9 @@ enum class CountedFrom {
 
 /// What stands in a coordinate table, and how closely.
 struct ProfileOptions {
-  double step = 1.0;  ///< between stations [m]; > 0
+  /// Between stations [m]; > 0. None: 1 m on tracks of 20 m to 2 km, else 1, 2 or 5 times a power of ten that makes some
+  /// hundred stations.
+  std::optional<double> step = {};
   CountedFrom row = CountedFrom::arc_length;
   std::vector<ParallelLine> parallels;
 };
