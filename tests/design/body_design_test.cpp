@@ -113,6 +113,12 @@ TEST_CASE("a body that cannot be is refused with its value, its bound and a way 
   CHECK_THAT(problems_of_body("{friction_angle: 3 deg, mass: 80 kg}"),
              Contains("mass: without a drag_area it changes nothing"));
   CHECK_THAT(problems_of_body("{friction_angle: 3 deg, drag_area: 0.2 m^2}"), Contains("mass is missing"));
+  // What hangs on a key that is misspelt is no problem of its own.
+  CHECK_THAT(problems_of_body("{friction_angel: 3 deg, mass: 80 kg, drag_are: 0.2 m^2, head_wind: 2 m/s}"),
+             Contains("unknown key friction_angel") && Contains("unknown key drag_are") &&
+                 !Contains("is missing") && !Contains("changes nothing") && !Contains("without drag"));
+  CHECK_THAT(problems_of_body("{friction_coeficient: 0.1}"),
+             Contains("Try: friction_coefficient") && !Contains("is missing"));
   CHECK_THAT(problems_of_body("{friction_angle: 3 deg, drag_area: 0.2 m^2, mass: 0 kg}"),
              Contains("mass: 0 kg is out of range"));
   CHECK_THAT(problems_of_body("{friction_angle: 3 deg, drag_area: 0.2 m^2, mass: 9 kg, drag: 0.1 1/m}"),

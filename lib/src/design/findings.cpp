@@ -58,6 +58,10 @@ void Findings::add_file(Position position, std::string key_path, Issue issue) {
   add(position, std::move(key_path), std::move(issue));
 }
 
+void Findings::withdraw(std::string_view key_path) {
+  std::erase_if(problems_, [&](const Problem& problem) { return problem.key_path == key_path; });
+}
+
 bool Findings::spoiled(std::string_view key_path) const {
   return std::any_of(problems_.begin(), problems_.end(), [&](const Problem& problem) {
     return is_within(key_path, problem.key_path) || is_within(problem.key_path, key_path);

@@ -36,6 +36,8 @@ class Findings {
   void add(Position position, std::string key_path, Issue issue);
   /// Adds that a file which the design names cannot be read, or is not of its format.
   void add_file(Position position, std::string key_path, Issue issue);
+  /// Takes back what was said of a key that is not there: it is, misspelt.
+  void withdraw(std::string_view key_path);
   /// Adds a problem between values, unless one of them has a problem of its own already.
   void add_unless_spoiled(Finding finding);
 

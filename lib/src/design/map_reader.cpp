@@ -279,6 +279,19 @@ std::optional<std::size_t> MapReader::choose(const Value& value, const std::vect
   return {};
 }
 
+bool MapReader::has_misspelt(std::string_view key) const {
+  return node_ != nullptr &&
+         std::any_of(node_->entries.begin(), node_->entries.end(), [&](const Entry& entry) {
+           const bool known = std::find(known_.begin(), known_.end(), entry.key) != known_.end();
+           return !known && meant_by(entry.key) == key;
+         });
+}
+
+std::string_view MapReader::meant_by(const std::string& key) const {
+  const std::string_view near = nearest_word(key, known_);
+  return near.empty() || has(near) ? std::string_view() : near;
+}
+
 Issue MapReader::unknown_key(const std::string& key) const {
   const std::vector<std::string_view>& keys = known_;
   Issue issue{"", "unknown key " + shown(key), std::string(noun_) + " has the keys " + listed(keys) + ".",
@@ -307,7 +320,10 @@ void MapReader::refuse_unknown_keys() {
   if (node_ == nullptr) return;
   for (const Entry& entry : node_->entries) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-    findings_.add(entry.key_at, path_of(entry.key), unknown_key(entry.key));
+    // What hangs on the key that was meant has no problem beside this one: neither that it is missing.
+    const std::string_view meant = meant_by(entry.key);
+    if (!meant.empty()) findings_.withdraw(path_of(meant));
+    findings_.add(entry.key_at, path_of(meant.empty() ? entry.key : meant), unknown_key(entry.key));
   }
 }
 

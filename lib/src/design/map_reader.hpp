@@ -58,6 +58,8 @@ class MapReader {
   /// @return false if the value is no map; every reading then returns none, without a problem of its own
   [[nodiscard]] bool readable() const { return node_ != nullptr; }
   [[nodiscard]] bool has(std::string_view key) const;
+  /// @return whether a key that nobody asked for is meant for this one, which is known: that alone is then the problem
+  [[nodiscard]] bool has_misspelt(std::string_view key) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
 
   [[nodiscard]] std::optional<Value> find(std::string_view key);
@@ -99,6 +101,8 @@ class MapReader {
                                                   const std::vector<std::string_view>& words);
   void refuse_duplicates();
   [[nodiscard]] Issue unknown_key(const std::string& key) const;
+  /// @return the known key that is not there and that an unknown one is meant for; empty if there is none
+  [[nodiscard]] std::string_view meant_by(const std::string& key) const;
 
   const Node* node_ = nullptr;
   std::string key_path_;

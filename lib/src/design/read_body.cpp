@@ -142,8 +142,9 @@ FrictionRange read_friction(MapReader& map, bool needed, Findings& findings) {
   }
   const auto coefficient = map.find("friction_coefficient");
   const auto angle =
-      by_coefficient || !needed
-          ? map.find("friction_angle")
+      by_coefficient || !needed ? map.find("friction_angle")
+      : map.has_misspelt("friction_coefficient")
+          ? std::nullopt
           : map.need("friction_angle", "friction_angle: 17 deg, or friction_coefficient: 0.306");
   if (coefficient && angle) static_cast<void>(read_friction_values(*angle, Dimension::angle, findings));
   const std::optional<Value>& value = coefficient ? coefficient : angle;
@@ -396,6 +397,7 @@ void read_drag(MapReader& map, BodyDesign& body, Findings& findings) {
   if (air) read_air(*air, by_parts, findings);
   body.drag_per_metre = drag.value_or(0.0);
   if (!by_area) {
+    if (map.has_misspelt("drag_area")) return;
     for (const char* const key : {"mass", "air"}) {
       if (!map.has(key)) continue;
       findings.add(findings.position(map.path_of(key)), map.path_of(key),

@@ -4,7 +4,6 @@
 #include "glissade/core/width_law.hpp"
 #include "glissade/design/design.hpp"
 
-#include <algorithm>
 #include <optional>
 
 namespace glissade {
@@ -16,8 +15,6 @@ struct StreamChannel {
   Angle wall_angle = {};     ///< from upright, outward
   /// @return whether a stream spills over the wall before it is as deep as its channel is wide, everywhere
   [[nodiscard]] bool has_low_walls() const { return wall_height < width.narrowest(); }
-  /// @return the least depth at which a stream chokes [m]: its wall, or its width, at which Roberts' law ends
-  [[nodiscard]] double deepest() const { return std::min(width.narrowest(), wall_height); }
   /// @return the area of what fills it up to the tops of its walls, where it is widest [m^2]
   [[nodiscard]] double full_area() const;
 };
