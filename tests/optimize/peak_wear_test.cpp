@@ -86,6 +86,21 @@ TEST_CASE("peak wear: without crests no chute wears less at its peak than the st
   }
 }
 
+TEST_CASE(
+    "peak wear: a fastest track with a corner, whose wear there knows no bound, hides no chute that wears "
+    "little") {
+  Problem problem = with_bends(8.78, 8.99, 1.75);
+  problem.limits.concave = false;
+  problem.limits.entry_slope_angle = {};
+  problem.limits.exit_slope_angle = {0.538, 0.806};
+  problem.limits.lead_in = 1.12;
+  const Optimum found = solved(problem);
+  const auto straight = std::make_shared<const StraightLine>(problem.endpoints);
+  INFO(found.report.message);
+  CHECK(*peak_of(problem, found.centerline) <= *peak_of(problem, straight) * (1.0 + 1e-4));
+  CHECK_FALSE(found.report.active.empty());
+}
+
 TEST_CASE("peak wear: the bound that the search keeps below is the least for which there is a track") {
   const Problem problem = with_bends(4.3, 5.9, 2.5);
   const Optimum& found = bent();

@@ -1,5 +1,7 @@
 #include "optimize/least_bound/least_peak.hpp"
 
+#include "glissade/centerline/straight_line.hpp"
+
 #include "optimize/descent/least_violation.hpp"
 #include "optimize/least_bound/most_reached.hpp"
 #include "optimize/mesh/refined_knots.hpp"
@@ -26,7 +28,7 @@ constexpr int kMostRounds = 4;            // budget
 constexpr double kKept = 1e-6;            // accuracy: ten times that of a limit
 constexpr double kKeptTo = 1e-9;          // accuracy: a hundredth of that of a limit
 constexpr double kSame = 1e-4;            // of the peak: the accuracy of a least one
-// Below this share of the fastest track's peak the stream all but flies: nothing is won by less.
+// Below this share of a straight chute's peak the stream all but flies: nothing is won by less.
 constexpr double kAllButNone = 1e-3;  // taste
 // Above the least that a mesh finds, by these shares: the track that keeps it between the stations too.
 constexpr double kAbove[] = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // taste: tried in turn
@@ -77,7 +79,7 @@ class LeastPeak {
     Optimum fastest = optimize(tried_, options_, stop_, progress_);
     outlay_.add(fastest.report);
     if (!fastest.centerline) return told(std::move(fastest));
-    hardly_any_ = kAllButNone * peak_of(fastest.centerline);
+    hardly_any_ = kAllButNone * usual_peak(fastest.centerline);
     std::optional<End> least = from_starts(0.5 * peak_of(fastest.centerline));
     std::unique_ptr<Built> best;
     for (int round = 0; least && round < kMostRounds; ++round) {
@@ -106,6 +108,16 @@ class LeastPeak {
 
   [[nodiscard]] double peak_of(const CenterlinePtr& track) const {
     return most_reached(tried_, &Limits::highest_floor_wear, wear_limit(), track).value_or(0.0);
+  }
+
+  /// What there is to be won from: the fastest track's peak, but where that has a corner, in which wear is what the mesh
+  /// makes of it, that of a straight chute between the same ends.
+  [[nodiscard]] double usual_peak(const CenterlinePtr& fastest) const {
+    const double peak = peak_of(fastest);
+    const Endpoints ends = fastest->endpoints();
+    if (ends.run == 0.0) return peak;
+    const double straight = peak_of(std::make_shared<const StraightLine>(ends));
+    return straight > 0.0 ? std::min(peak, straight) : peak;
   }
 
   [[nodiscard]] Problem within(double bound) const {
