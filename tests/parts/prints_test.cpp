@@ -555,7 +555,7 @@ TEST_CASE(
     "prints: a foot that would stand beyond the line of the ground is refused, told from where to where") {
   PrintOptions options = on_stands(0.12);
   options.stands->ground = {{-0.1, -0.3}, {0.2, -0.4}};
-  const std::string text = refusal_of([&] { return prints(run(), groove(), options); });
+  const std::string text = testing::refusal_of([&] { return prints(run(), groove(), options); });
   CHECK(
       text.find(
           "stands.ground|ground: its line ends 200 mm from the start along the run, and a foot stands at ") ==

@@ -241,8 +241,9 @@ TEST_CASE("a step that makes too many stations is refused with one that does not
       REQUIRE_FALSE(advised.empty());
       std::istringstream words(advised);
       std::string unit;
-      words >> options.step >> unit;
-      options.step *= unit == "mm" ? 1e-3 : unit == "km" ? 1e3 : 1.0;
+      double value = 0.0;
+      words >> value >> unit;
+      options.step = value * (unit == "mm" ? 1e-3 : unit == "km" ? 1e3 : 1.0);
       const std::size_t stations = coordinate_table(design, track, options).size();
       CHECK(stations >= 50);
       CHECK(stations <= 260);
