@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kGravity = kDefaultGravity;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/// What the issue of this test asks of two routes to one number.
+/// What two routes to one number agree to.
 constexpr double kAgreement = 1e-9;
 
 LawPtr ball(double radius, double groove_half_angle_deg = 90.0, std::optional<double> centre_height = {},

@@ -13,6 +13,9 @@ namespace {
 
 // A law is continued below the squared speed at which it ends by this share of it.
 constexpr double kContinued = 0.25;
+// The derivative of drag in wind, |u + w|/u of that of drag in still air, grows without bound towards rest. It only leads
+// the iteration: below this share of the wind it is that there.
+constexpr double kSlowest = 1e-6;
 // What is not linear in v is iterated on until v moves by no more than rounding. Newton's method takes some 5
 // rounds; a panel that takes more than this is halved.
 constexpr double kSettled = 4.0 * core::kEpsilon;
@@ -92,7 +95,13 @@ Equation::Extra Equation::extra(const Direction& direction, double s, double fri
     extra.rate = -gain * friction * (by_v * pressing + (c.factor - 1.0) * side * direction.curvature);
     extra.push = -gain * friction * (c.factor - 1.0) * pressing - extra.rate * v;
   }
-  if (head_wind != 0.0) extra.push += gain * k * path * (v - dragged(v));
+  if (head_wind != 0.0) {
+    const double speed = std::sqrt(std::max(0.0, v));
+    const double by_v = std::fabs(speed + head_wind) / std::max(speed, kSlowest * std::fabs(head_wind));
+    const double rate = gain * k * path * (1.0 - by_v);
+    extra.rate += rate;
+    extra.push += gain * k * path * (v - dragged(v)) - rate * v;
+  }
   return extra;
 }
 
@@ -237,6 +246,8 @@ void Panel::settle(const Equation& equation, Nodes& nodes) {
   resolved = false;
   mean_rate.emplace();
   chebyshev::Values rate{};
+  // Where wind and slope all but balance v is a small difference of what either does.
+  const double wind_terms = equation.push_of_wind() * (stretch.end - stretch.begin);
   for (int iteration = 0; iteration < kMostIterations && !resolved; ++iteration) {
     const chebyshev::Values before = v;
     for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
@@ -246,7 +257,9 @@ void Panel::settle(const Equation& equation, Nodes& nodes) {
       rate[i] = extra.rate * stretch.stretching(sigma);
       push[i] = closed_push[i] + extra.push;
     }
-    if (equation.law != nullptr) *mean_rate = chebyshev::running_mean(rate);
+    // From rest the rate goes as 1/u, the stretching as u.
+    if (at_rest() && equation.head_wind != 0.0) rate[0] = chebyshev::extrapolated_to_zero(rate);
+    *mean_rate = chebyshev::running_mean(rate);
     for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
       nodes.keeping[i] = nodes.closed_keeping[i] * math::exp(side * stretch.width * x[i] * (*mean_rate)[i]);
       push[i] /= nodes.keeping[i];
@@ -258,7 +271,7 @@ void Panel::settle(const Equation& equation, Nodes& nodes) {
       change = std::max(change, std::fabs(v[i] - before[i]));
       size = std::max(size, std::fabs(v[i]));
     }
-    resolved = change <= kSettled * size;
+    resolved = change <= kSettled * (size + wind_terms);
   }
 }
 

@@ -54,6 +54,8 @@ struct Equation {
                                    double friction) const;
   /// @return D(v): drag over k
   [[nodiscard]] double dragged(double v) const;
+  /// @return what the wind does to v of a body at rest [m/s^2], in size: 0 in still air
+  [[nodiscard]] double push_of_wind() const { return gain * k * head_wind * head_wind; }
   /// Losses are sums of c N over this: mu alone where it is the same everywhere.
   [[nodiscard]] double loss_friction() const { return changes.empty() ? mu : 1.0; }
 };

@@ -94,7 +94,8 @@ Miss miss_of(const Equation& equation, const Panel& panel) {
   const double place_rounding = 10.0 * core::kEpsilon * panel.stretch.end / distance;
 
   const double push_size = largest_size(panel.push);
-  const double push_rounding = 4.0 * core::kEpsilon * 2.0 * equation.gravity * (1.0 + equation.mu);
+  const double push_rounding =
+      4.0 * core::kEpsilon * (2.0 * equation.gravity * (1.0 + equation.mu) + equation.push_of_wind());
   const double least_v = *std::min_element(panel.v.begin(), panel.v.end());
   const double push_tolerance = std::max({kTailTolerance * push_size, place_rounding * spread(panel.push),
                                           push_rounding, 0.1 * kTailTolerance * least_v / distance});
@@ -160,6 +161,9 @@ class Integrator {
   void append(const Panel& panel);
   void come_to_rest(const Stretch& stretch, double s, int deepest);
   void stall(const Panel& panel);
+  [[nodiscard]] std::optional<double> creeps_to_rest_at(const Stretch& stretch) const;
+  [[nodiscard]] double friction_on(const Stretch& stretch) const;
+  void creep(const Stretch& stretch, double rest);
   [[nodiscard]] double where_load_ends(const Panel& panel) const;
   void leave_track(double s);
   [[nodiscard]] chebyshev::Values law_margin(const Panel& panel) const;
@@ -255,6 +259,10 @@ std::optional<Stretch> Integrator::slide_on(const Stretch& whole, int halvings) 
   while (!tasks.empty()) {
     const Task task = tasks.back();
     tasks.pop_back();
+    if (const std::optional<double> rest = creeps_to_rest_at(task.stretch)) {
+      creep(task.stretch, *rest);
+      return {};
+    }
     const Panel panel = integrated(task.stretch, v_);
     const Miss miss = miss_of(equation(), panel);
     const bool too_wide = task.depth < halvings && task.stretch.can_split() && !task.proven;
@@ -416,6 +424,65 @@ void Integrator::come_to_rest(const Stretch& stretch, double s, int deepest) {
   std::for_each(backwards.rbegin(), backwards.rend(), [&](const Panel& panel) { append(panel); });
 }
 
+/// A wind from behind pushes less the faster a body is: there is a speed at which wind, slope and friction balance, and where that
+/// falls to 0, at s0, and slowly, all bodies come to rest after endless time, as near to that speed as one likes. In the body's
+/// u u' = P(s) - 2 K w u + K u^2, with P what there is at rest and K half of gain times drag, u <= m (s0 - s) holds for all of the
+/// way to s0 once it does, for m = K w / 2, where P(s) <= 0.7 K^2 w^2 (s0 - s) and u is small beside w: there
+/// u' <= (0.7 K^2 w^2) / m - 2 K w + 0.01 K w < -m. And no body stays behind while P is positive.
+std::optional<double> Integrator::creeps_to_rest_at(const Stretch& stretch) const {
+  constexpr double kCreeps = 1e-3;   // taste: of the wind; what is as slow is told as standing
+  constexpr double kSlowly = 0.7;    // theory
+  constexpr double kSmall = 0.01;    // theory: beside the wind
+  constexpr double kNearRest = 0.5;  // theory
+  const double w = -equation().head_wind;
+  const double u = std::sqrt(v_);
+  if (equation().law != nullptr || !(w > 0.0) || !(u > 0.0) || u > kCreeps * w) return {};
+  const double friction = friction_on(stretch);
+  const auto push = [&](double s) { return 0.5 * equation().slope_at_rest(direction(s), friction); };
+  if (!(push(stretch.begin) > 0.0) || !(push(stretch.end) < 0.0)) return {};
+  const double rest = root_between(push, stretch.begin, stretch.end);
+  const double way = rest - stretch.begin;
+  double path = HUGE_VAL;
+  for (const double x : chebyshev::nodes())
+    path = std::min(path, equation().path_rate(direction(stretch.begin + x * way)));
+  const double rate = 0.5 * equation().gain * equation().k * path * w;
+  if (!(u <= kNearRest * rate * way) || !(kNearRest * rate * way <= kSmall * w)) return {};
+  for (const double x : chebyshev::nodes()) {
+    const double at = stretch.begin + x * way;
+    const double most = kSlowly * rate * rate * (rest - at);
+    if (x < 1.0 && !(push(at) > 0.0 && push(at) <= most)) return {};
+  }
+  return rest;
+}
+
+double Integrator::friction_on(const Stretch& stretch) const {
+  return pressing_ * (equation().changes.empty()
+                          ? equation().mu
+                          : equation().friction_at(0.5 * (stretch.begin + stretch.end)));
+}
+
+/// The last of the way to rest, on which wind, slope and friction balance.
+void Integrator::creep(const Stretch& stretch, double rest) {
+  const double friction = friction_on(stretch);
+  const double share = equation().changes.empty() ? pressing_ : friction;
+  const double way = rest - stretch.begin;
+  chebyshev::Values pressed;
+  chebyshev::Values dragged;
+  for (std::size_t i = 0; i < chebyshev::kNodes; ++i) {
+    const Direction at = direction(stretch.begin + chebyshev::nodes()[i] * way);
+    pressed[i] = share * equation().load(at, 0.0) * equation().path_rate(at);
+    dragged[i] = equation().push(at, friction) / (equation().gain * equation().k);
+  }
+  sums_.load += way * chebyshev::running_mean(pressed).back();
+  // And what is left of the speed goes into the air.
+  sums_.speed_squared +=
+      way * chebyshev::running_mean(dragged).back() + v_ / (equation().gain * equation().k);
+  sums_.time = core::kInfinity;
+  const double missing = math::atan(std::fabs(friction)) - equation().centerline->slope_angle(rest);
+  record_.stall = Stall{rest, Angle::from_radians(std::max(0.0, missing))};
+  close(rest, 0.0);
+}
+
 double Integrator::where_load_ends(const Panel& panel) const {
   const double rounding = kLoadRounding * equation().gravity;
   const chebyshev::Values loads = pressed(panel);
@@ -516,6 +583,15 @@ Panel Integrator::integrated(const Stretch& stretch, double v) {
                               "A drag of " + rounded_text(k, 4) + " 1/m takes a body's speed within " +
                                   length_text(1.0 / k) + ": too many steps lead down the track.",
                               "the unit of drag; what slides has 0.0001 to 0.1 1/m"});
+    }
+    const double w = equation().head_wind;
+    constexpr double kAllButStands = 1e-2;  // of the wind
+    if (w < 0.0 && v_ < kAllButStands * kAllButStands * w * w) {
+      throw ConvergenceError(
+          {"", "the ride comes no further than " + length_text(stretch.begin),
+           "Wind from behind, slope and friction balance there: the body all but stands, and a "
+           "hair more or less of any of them decides whether it does.",
+           "a little more, or less, wind or friction"});
     }
     throw ConvergenceError(
         {"", "the ride comes no further than " + length_text(stretch.begin),
