@@ -753,6 +753,36 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the highest exit speed to a free height is at its bound, however far, and none without one") {
+  Problem problem;
+  problem.endpoints = {10.0, 0.0};
+  problem.finish.kind = FinishKind::vertical_line;
+  problem.body.friction = Friction::from_coefficient(0.2);
+  problem.body.entry_speed = 1.0;
+  problem.limits.smallest_valley_radius = 2.0;
+  problem.limits.smallest_crest_radius = 2.0;
+  problem.objective.kind = ObjectiveKind::exit_speed;
+  for (const double deepest : {50.0, 305.0}) {
+    problem.finish.free_range.highest = deepest;
+    const Optimum found = solved(problem);
+    INFO(deepest << " m");
+    CHECK(drop_of(found) == Approx(deepest).epsilon(1e-6));
+    const double straight = std::sqrt(1.0 + 2.0 * problem.gravity * (deepest - 0.2 * 10.0));
+    CHECK(found.report.exit_speed >= straight);
+    CHECK(price_of(found, LimitId::finish_drop) ==
+          Approx(problem.gravity / found.report.exit_speed).epsilon(0.02));
+  }
+  // Beyond what is looked at, and without a bound, it says so.
+  for (const std::optional<double> deepest : {std::optional(5000.0), std::optional<double>()}) {
+    problem.finish.free_range.highest = deepest;
+    const Optimum found = optimize(problem);
+    CHECK(found.report.status == OptimizeStatus::feasible_not_converged);
+    CHECK_THAT(found.report.message,
+               Catch::Matchers::Contains("but the longer a track, the better: none longer than ") &&
+                   Catch::Matchers::Contains("give the free end a nearer bound"));
+  }
+}
+
 TEST_CASE("prices of a ramp are what its drop changes by") {
   Problem problem = task(0.05, 0.0, 10.0, ObjectiveKind::least_drop);
   problem.limits.lead_out = 6.0;

@@ -150,6 +150,51 @@ TEST_CASE("laws: limits hold for what rolls and flows, by the referee") {
   CHECK(motion.highest_load().normal_load <= 2.5 * kGravity * (1.0 + 1e-6));
 }
 
+TEST_CASE(
+    "laws: the least wear of a body whose centre is high counts what its slopes at the ends lower it by") {
+  Problem tall = problem(5.12, 1.85, 0.105, 2.78, std::make_shared<const Rider>(0.67));
+  tall.objective.kind = ObjectiveKind::least_wear;
+  tall.limits.slope_angle = {-0.166, 0.963};
+  tall.limits.exit_slope_angle = {-0.046, 0.025};
+  tall.limits.smallest_crest_radius = 4.16;
+  const auto rubbed = [](const Problem& of, const Optimum& optimum) {
+    const Motion motion(optimum.centerline, of.body, of.gravity);
+    REQUIRE(motion.arrived());
+    return motion.at(motion.distance()).friction_loss;
+  };
+  const Optimum least = optimize(tall);
+  REQUIRE(least.report.status == OptimizeStatus::optimal);
+  const double loss = rubbed(tall, least);
+  // The greatest exit speed rubs 1 % more.
+  Problem fast = tall;
+  fast.objective.kind = ObjectiveKind::exit_speed;
+  const Optimum fastest = optimize(fast);
+  REQUIRE(fastest.centerline);
+  CHECK(rubbed(tall, fastest) > 1.005 * loss);
+  CHECK(fastest.report.exit_speed > least.report.exit_speed);
+  // With the slopes at both ends given both ask for the same.
+  const double entry = least.centerline->slope_angle(0.0);
+  const double exit = least.centerline->slope_angle(least.centerline->length());
+  for (Problem* const of : {&tall, &fast}) {
+    of->limits.entry_slope_angle = Range::fixed(entry);
+    of->limits.exit_slope_angle = Range::fixed(exit);
+  }
+  const Optimum held = optimize(tall);
+  const Optimum held_fast = optimize(fast);
+  REQUIRE(held.centerline);
+  REQUIRE(held_fast.centerline);
+  CHECK(rubbed(tall, held) == Approx(loss).epsilon(1e-6));
+  CHECK(rubbed(fast, held_fast) == Approx(loss).epsilon(1e-6));
+  // Neither other slopes at the start: of each the least that there is.
+  for (const double other : {entry - 0.05, entry + 0.05}) {
+    Problem turned = tall;
+    turned.limits.entry_slope_angle = Range::fixed(other);
+    const Optimum one = optimize(turned);
+    REQUIRE(one.centerline);
+    CHECK(rubbed(turned, one) >= loss * (1.0 - 1e-7));
+  }
+}
+
 TEST_CASE("laws: a finish beyond reach is beyond it for a ball, unless its own height helps") {
   CHECK(optimize(problem(2.0, 0.1, 0.2, 0.0, ball(0.02))).report.status == OptimizeStatus::infeasible);
   // (H + h (sqrt(1 + c^2) + c))/L > c: the theorem is silent.

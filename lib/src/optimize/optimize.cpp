@@ -6,6 +6,7 @@
 #include "glissade/centerline/fastest_track.hpp"
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
 
@@ -407,6 +408,16 @@ bool winds_at_cap(const ScaledProblem& problem, const Found& found) {
   return false;
 }
 
+/// Whether it is how long tracks are looked for that holds the best one up: where a longer one is better without end, no limit does.
+bool is_held_by_longest(const ScaledProblem& problem, const Found& found) {
+  constexpr double kHolds = 1e-6;  // accuracy: that of a limit
+  for (std::size_t k = 0; k < found.active.size(); ++k) {
+    const LimitSpec& limit = problem.limits[found.active[k].limit];
+    if (limit.name.id == LimitId::not_many_chords_long && found.inequality[k] > kHolds) return true;
+  }
+  return false;
+}
+
 /// What is lost to limits that are held tighter than asked for: loads that no curvature between knots follows just so.
 double lost_to_margins(const ScaledProblem& problem, const Found& found) {
   double lost = 0.0;
@@ -637,6 +648,13 @@ void tell_end(const Problem& problem, const OptimizeOptions& options, const Cour
         "try a larger drop, less friction or an entry speed";
     report.first_order_residual = HUGE_VAL;
     report.finer_mesh_wins.reset();
+    return;
+  }
+  if (converged && !is_exact && is_held_by_longest(*course.best().problem, *course.best().found)) {
+    report.status = OptimizeStatus::feasible_not_converged;
+    report.message = "every limit holds, but the longer a track, the better: none longer than " +
+                     length_text(optimum.centerline->length()) +
+                     " is looked for; give the free end a nearer bound, or an arc_length";
     return;
   }
   // Answers to neighbouring problems of the kind were out of order by up to 1.7e-3 (docs/optimization.md).

@@ -8,7 +8,8 @@ enum class ObjectiveKind {
   travel_time,  ///< least T
   exit_speed,   ///< greatest u(S)
   /// Least work of friction on floor and walls for each kilogram. With the ends given and no drag that is the
-  /// greatest exit speed: what is not rubbed off arrives.
+  /// greatest exit speed: what is not rubbed off arrives. Where the centre of mass lies above the track, what it comes down
+  /// by goes with the slopes at the ends as well, and they are counted.
   least_wear,
   /// Of a stream: least highest wear of the floor, Roberts' wear factor W_c, over the track and all frictions
   least_peak_wear,

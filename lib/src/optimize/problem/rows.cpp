@@ -84,12 +84,19 @@ void Rows::add_derivatives(State& state) const {
     track_.add_derivatives(state.z, state.shape, problem_.rides[r], state.flows[r]);
 }
 
+double Rows::speed_counted(const State& state) const {
+  const double v = state.flows[problem_.objective_ride].v.back();
+  return problem_.tilt == 0.0
+             ? v
+             : v - problem_.tilt * (state.shape.cos.front() - state.shape.cos[track_.stations().size() - 1]);
+}
+
 double Rows::objective(const State& state) const {
   const Flow& flow = state.flows[problem_.objective_ride];
   double value = problem_.time_weight * flow.time;
   if (problem_.speed_weight > 0.0) {
     // A squared speed below zero is a body that would not arrive: its root is continued as an odd function.
-    const double v = flow.v.back();
+    const double v = speed_counted(state);
     value -= problem_.speed_weight * std::copysign(std::sqrt(std::fabs(v)), v);
   }
   value += problem_.drop_weight * state.drop();
@@ -105,8 +112,13 @@ Vector Rows::objective_gradient(const State& state) const {
   for (double& entry : gradient) entry *= problem_.time_weight;
   if (problem_.speed_weight > 0.0) {
     const std::size_t last = flow.v.size() - 1;
-    const double root = std::sqrt(std::max(std::fabs(flow.v[last]), 1e-12));
-    track_.add(flow.dv, last, -problem_.speed_weight * 0.5 / root, gradient.data());
+    const double root = std::sqrt(std::max(std::fabs(speed_counted(state)), 1e-12));
+    const double by_v = -problem_.speed_weight * 0.5 / root;
+    track_.add(flow.dv, last, by_v, gradient.data());
+    if (problem_.tilt != 0.0) {
+      track_.add_dzeta(0, by_v * problem_.tilt * state.shape.sin.front(), gradient.data());
+      track_.add_dzeta(last, -by_v * problem_.tilt * state.shape.sin[last], gradient.data());
+    }
   }
   if (problem_.drop_weight > 0.0) add_across(state.shape.dy, problem_.drop_weight, gradient.data());
   track_.add_core_length(problem_.length_weight, gradient.data());
@@ -279,10 +291,17 @@ StationWeights Rows::weights(const State& state, const Vector& equality, const s
   weights.time.assign(problem_.rides.size(), 0.0);
   weights.time[problem_.objective_ride] = objective * problem_.time_weight;
   if (problem_.speed_weight > 0.0) {
-    const double root = std::sqrt(std::max(std::fabs(state.flows[problem_.objective_ride].v[last]), 1e-12));
-    weights.v[problem_.objective_ride][last] -= objective * problem_.speed_weight * 0.5 / root;
-    weights.v_v[problem_.objective_ride][last] +=
-        objective * problem_.speed_weight * 0.25 / (root * root * root);
+    const double root = std::sqrt(std::max(std::fabs(speed_counted(state)), 1e-12));
+    const double by_v = -objective * problem_.speed_weight * 0.5 / root;
+    weights.v[problem_.objective_ride][last] += by_v;
+    if (problem_.tilt == 0.0) {
+      weights.v_v[problem_.objective_ride][last] +=
+          objective * problem_.speed_weight * 0.25 / (root * root * root);
+    } else {
+      // As of the square of that speed, which has the same optimum: no product of v and the slopes at the ends comes in.
+      weights.zeta_zeta[0] += by_v * problem_.tilt * state.shape.cos.front();
+      weights.zeta_zeta[last] -= by_v * problem_.tilt * state.shape.cos[last];
+    }
   }
   weigh_across(weights.y, objective * problem_.drop_weight);
   std::size_t row = 0;

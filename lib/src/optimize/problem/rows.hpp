@@ -70,6 +70,8 @@ class Rows {
   void add_derivatives(State& state) const;
 
   [[nodiscard]] double objective(const State& state) const;
+  /// @return the squared speed at the finish that the objective counts, at any friction that it is of
+  [[nodiscard]] double speed_counted(const State& state) const;
   [[nodiscard]] Vector objective_gradient(const State& state) const;
 
   [[nodiscard]] std::size_t equality_count() const { return equality_limits_.size() + fixed_equalities_; }

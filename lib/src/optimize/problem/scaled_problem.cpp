@@ -372,6 +372,33 @@ void add_changes(const Body& body, ScaledProblem& out) {
   }
 }
 
+/// How far from the start the bounds of a free finish lie [m]; 0 where it is given, or has none.
+double farthest_finish(const Problem& problem) {
+  const auto farthest = [](const Range& range) {
+    return std::max(std::fabs(range.lowest.value_or(0.0)), std::fabs(range.highest.value_or(0.0)));
+  };
+  const Finish& finish = problem.finish;
+  switch (finish.kind) {
+    case FinishKind::point:
+      return 0.0;
+    case FinishKind::vertical_line:
+      return math::hypot(problem.endpoints.run, farthest(finish.free_range));
+    case FinishKind::level:
+      return math::hypot(farthest(finish.free_range), problem.endpoints.drop);
+    case FinishKind::anywhere:
+      return math::hypot(farthest(finish.free_range), farthest(finish.free_drop));
+  }
+  return 0.0;
+}
+
+/// How long a track may be, in chords. @param farthest  that its finish may lie away, in chords
+double most_chords(double farthest) {
+  constexpr double kUsual = 20.0;     // taste
+  constexpr double kDetour = 1.5;     // taste: of the way to the farthest finish
+  constexpr double kSearched = 90.0;  // accuracy: below what a transcription tells from no track at all
+  return std::min(std::max(kUsual, kDetour * farthest), kSearched);
+}
+
 void add_limits(const Problem& problem, const Passages& passages, ScaledProblem& out) {
   const Limits& limits = problem.limits;
   LimitList list(problem, out);
@@ -396,12 +423,12 @@ void add_limits(const Problem& problem, const Passages& passages, ScaledProblem&
                       (limits.smallest_valley_radius ? kFits : kFitsWell) / height);
     out.limits.back().scale = out.limits.back().bound;
   }
-  // No track is shorter than a chord; none that is worth building is many times longer.
+  // No track is shorter than a chord; none that is worth building is many times longer, but where its finish may lie so far.
   constexpr double kShortest = 0.9;  // theory: below 1
-  constexpr double kLongest = 20.0;  // taste
   list.add_built_in(LimitId::not_shorter_than_chord, Measure::arc_length,
                     std::max(kShortest, out.lead_in + out.lead_out + 2.0 * kShortestCore));
-  list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length, kLongest);
+  list.add_built_in(LimitId::not_many_chords_long, Measure::arc_length,
+                    most_chords(farthest_finish(problem) / out.chord));
   list.add_built_in(LimitId::arrival, Measure::arrival, kCreep);
   list.add_no_choking();
   // A stream flatter than the floor flies on over it.
@@ -463,6 +490,10 @@ void set_objective(const Objective& objective, double entry_speed, ScaledProblem
       for (Ride& ride : out.rides) ride.even_speed = entry_speed;
       break;
     case ObjectiveKind::least_wear:
+      out.time_weight = 0.0;
+      out.speed_weight = 1.0;
+      out.tilt = out.rides.front().gain * out.rides.front().height;
+      break;
     case ObjectiveKind::exit_speed:
     // Of a least bound this is what is searched for at each bound that is tried (least_bound.cpp).
     case ObjectiveKind::least_load:

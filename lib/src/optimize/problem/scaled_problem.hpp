@@ -85,6 +85,9 @@ struct ScaledProblem {
   std::size_t nominal_ride = 0;
   double time_weight = 1.0;  ///< objective: time_weight T - speed_weight u(S), both scaled
   double speed_weight = 0.0;
+  /// Of least wear: the squared speed that goes with cos(zeta) at the start less that at the finish. By them the centre of a
+  /// body that is higher than the track comes down by another drop than the track's, and what is not rubbed off arrives.
+  double tilt = 0.0;
   double drop_weight = 0.0;    ///< ... + drop_weight times the drop
   double length_weight = 0.0;  ///< ... + length_weight times the length
   std::vector<LimitSpec> limits;

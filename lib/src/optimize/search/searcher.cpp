@@ -29,8 +29,17 @@ bool is_travel_time(const ScaledProblem& problem) {
   return problem.speed_weight == 0.0 && problem.drop_weight == 0.0 && problem.length_weight == 0.0;
 }
 
+/// Of a track that need not be fast, but lead to speed or keep it even, any detour may be the better one.
+bool is_about_speed(const ScaledProblem& problem) {
+  return problem.speed_weight != 0.0 || problem.rides.front().even_speed > 0.0;
+}
+
 double entry_share(const ScaledProblem& problem, double core_length) {
   return (problem.lead_in + 0.5 * problem.entry_speed2) / core_length;
+}
+
+void append(std::vector<GuessCurve> curves, std::vector<GuessCurve>& to) {
+  for (GuessCurve& curve : curves) to.push_back(std::move(curve));
 }
 
 /// Where the track from the first start is doubted: other starts, which may lead to better ones.
@@ -38,13 +47,14 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
                                      const Found& first, bool got_lost) {
   constexpr double kDoubtful = 0.05;  // taste: slower by such a share than without limits
   std::vector<GuessCurve> more;
-  // Of a track that need not be fast, but lead to speed, any detour may be the better one.
-  const bool counts_speed = problem.speed_weight != 0.0;
+  const bool counts_speed = is_about_speed(problem);
   if (got_lost || counts_speed) more.assign(curves.begin() + 1, curves.end());
+  // A speed is kept even in bends, and there are many ways to bend.
+  if (problem.rides.front().even_speed > 0.0) append(scattered_starts(problem), more);
   if (!counts_speed && !is_travel_time(problem)) return more;
   if (more.empty() && first.objective > straight_time(problem)) more.assign(curves.begin() + 1, curves.end());
   const std::optional<FlyingStart> flying = flying_start(problem);
-  // Where exit speed counts travel times tell nothing; the crest that is flown over at the start may pay there, too.
+  // Where speed counts travel times tell nothing; the crest that is flown over at the start may pay there, too.
   const bool may_win = flying && (counts_speed || first.objective > (1.0 + kDoubtful) * flying->travel_time);
   if (may_win) more.push_back(flying->curve);
   return more;
@@ -100,9 +110,9 @@ Candidate Searcher::search(Opening opening, const std::optional<Candidate>& to_b
       if (candidate.kept || candidate.stopped) break;
       continue;
     }
-    // Only of the first start: others are tried anyway.
+    // Only of the first start, or the first that leads to a track: others are tried anyway.
     std::vector<GuessCurve> more;
-    if (!unlimited && tried.size() == 1)
+    if (!unlimited && (tried.size() == 1 || is_about_speed(*candidate.rough)))
       more = worth_trying(*candidate.rough, curves, *found, rough.got_lost);
     if (more.empty() || candidate.stopped) {
       refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
