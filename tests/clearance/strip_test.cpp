@@ -49,7 +49,7 @@ std::vector<CenterlinePoint> stations_of(const Centerline& track, int samples) {
 Approach closest(const Centerline& track, const Envelope& envelope, const Region& region, int samples = 20,
                  double accuracy = 1e-9) {
   const Strip strip(track, envelope, stations_of(track, samples));
-  return strip.least(region, strip.along(region), accuracy);
+  return strip.least(region, strip.along(region), accuracy).closest;
 }
 
 CenterlinePtr random_track(testing::Random& random, std::ostream& words) {

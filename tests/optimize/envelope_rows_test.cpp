@@ -185,7 +185,7 @@ TEST_CASE("rows of an envelope: the least of them is the clearance that the refe
     stations.push_back(spline.at(spline.length()));
     const clearance::Strip strip(spline, given.limits.envelope, stations);
     const auto region = clearance::Region::area(outline, clearance::Pass::either);
-    const double expected = strip.least(region, strip.along(region), 1e-9).value;
+    const double expected = strip.least(region, strip.along(region), 1e-9).closest.value;
 
     // Of the two ways past it the one that the track takes.
     double least = -HUGE_VAL;

@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace glissade::clearance {
 namespace {
 
 constexpr std::size_t kEdgesOfLeaf = 4;
-// Steps along a piece within an area at which its depth is measured.
-constexpr int kDepthSamples = 8;
 
 Vec2 nearest_of_segment(Vec2 point, Vec2 from, Vec2 to) {
   const Vec2 along = to - from;
@@ -61,6 +61,26 @@ bool within_convex(Vec2 point, std::span<const Vec2> shape) {
   return !(left && right);
 }
 
+/// @return the runs of some corners, ascending, each once
+std::vector<double> runs_of(const std::vector<Vec2>& corners) {
+  std::vector<double> runs;
+  for (const Vec2 corner : corners) runs.push_back(corner.x);
+  std::sort(runs.begin(), runs.end());
+  runs.erase(std::unique(runs.begin(), runs.end()), runs.end());
+  return runs;
+}
+
+/// @return the part of a segment between two runs, ascending; nothing where it does not reach from one to the other
+std::optional<std::pair<Vec2, Vec2>> between_runs(Vec2 from, Vec2 to, double low, double high) {
+  if (from.x > to.x) std::swap(from, to);
+  if (!(from.x <= low && to.x >= high)) return std::nullopt;
+  const auto at = [&](double run) {
+    if (run == to.x) return to;
+    return Vec2{run, from.y + (to.y - from.y) * (run - from.x) / (to.x - from.x)};
+  };
+  return std::pair{at(low), at(high)};
+}
+
 Nearest between(std::span<const Vec2> shape, Vec2 from, Vec2 to) {
   if (shape.size() == 1) {
     return {norm(nearest_of_segment(shape[0], from, to) - shape[0]), shape[0]};
@@ -81,16 +101,18 @@ Region Region::area(const std::vector<Vec2>& outline, Pass pass) {
   Region region(Kind::area);
   region.pass_ = pass;
   region.add_edges(outline, true);
-  if (pass != Pass::either) region.add_profile(outline, pass == Pass::above ? 1.0 : -1.0);
+  if (pass == Pass::either) {
+    region.add_inside(outline);
+  } else {
+    region.add_profile(outline, pass == Pass::above ? 1.0 : -1.0);
+  }
   return region;
 }
 
 Region Region::line(const std::vector<Vec2>& line, bool above) {
   Region region(Kind::line);
   region.add_edges(line, false);
-  region.profile_ = region.edges_;
-  region.side_ = above ? 1.0 : -1.0;
-  region.add_jumps();
+  region.add_behind(region.edges_, above ? 1.0 : -1.0);
   return region;
 }
 
@@ -110,38 +132,62 @@ void Region::add_edges(const std::vector<Vec2>& corners, bool closed) {
   build_boxes(1, 0, edges_.size());
 }
 
+// What lies within an outline: between two runs at which it has corners, every other gap between its edges.
+void Region::add_inside(const std::vector<Vec2>& outline) {
+  const std::vector<double> runs = runs_of(outline);
+  std::vector<Edge> across;
+  for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
+    across.clear();
+    for (const Edge& edge : edges_) {
+      if (const auto part = between_runs(edge.from, edge.to, runs[i], runs[i + 1])) {
+        across.push_back({part->first, part->second});
+      }
+    }
+    std::sort(across.begin(), across.end(),
+              [](const Edge& a, const Edge& b) { return a.from.y + a.to.y < b.from.y + b.to.y; });
+    for (std::size_t k = 0; k + 1 < across.size(); k += 2) pieces_.push_back({across[k], across[k + 1]});
+  }
+}
+
 // The upper (least drop) or lower side of an outline: between two runs at which it has corners, one edge of it
 // is the outermost all the way.
 void Region::add_profile(const std::vector<Vec2>& outline, double side) {
-  side_ = side;
-  std::vector<double> runs;
-  for (const Vec2 corner : outline) runs.push_back(corner.x);
-  std::sort(runs.begin(), runs.end());
-  runs.erase(std::unique(runs.begin(), runs.end()), runs.end());
+  const std::vector<double> runs = runs_of(outline);
+  std::vector<Edge> profile;
   for (std::size_t i = 0; i + 1 < runs.size(); ++i) {
-    const double middle = 0.5 * (runs[i] + runs[i + 1]);
     double extreme = core::kInfinity;
     Edge outermost;
     for (const Edge& edge : edges_) {
-      const Vec2 a = edge.from.x <= edge.to.x ? edge.from : edge.to;
-      const Vec2 b = edge.from.x <= edge.to.x ? edge.to : edge.from;
-      if (!(a.x <= runs[i] && b.x >= runs[i + 1])) continue;
-      const auto drop = [&](double run) { return a.y + (b.y - a.y) * (run - a.x) / (b.x - a.x); };
-      if (side * drop(middle) >= extreme) continue;
-      extreme = side * drop(middle);
-      outermost = {{runs[i], drop(runs[i])}, {runs[i + 1], drop(runs[i + 1])}};
+      const auto part = between_runs(edge.from, edge.to, runs[i], runs[i + 1]);
+      if (!part) continue;
+      const double middle = side * 0.5 * (part->first.y + part->second.y);
+      if (middle >= extreme) continue;
+      extreme = middle;
+      outermost = {part->first, part->second};
     }
-    profile_.push_back(outermost);
+    if (extreme < core::kInfinity) profile.push_back(outermost);
   }
-  add_jumps();
+  add_behind(profile, side);
 }
 
-void Region::add_jumps() {
-  jumps_.push_back(profile_.front().from.x);
-  for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
-    if (!(profile_[i].to == profile_[i + 1].from)) jumps_.push_back(profile_[i].to.x);
+void Region::add_behind(const std::vector<Edge>& profile, double side) {
+  side_ = side;
+  for (const Edge& edge : profile) {
+    if (edge.from.x == edge.to.x) continue;
+    const double far = side * core::kInfinity;
+    const Edge beyond{{edge.from.x, far}, {edge.to.x, far}};
+    pieces_.push_back(side > 0.0 ? Piece{edge, beyond} : Piece{beyond, edge});
+    if (kind_ == Kind::area) {
+      const double slope = (edge.to.y - edge.from.y) / (edge.to.x - edge.from.x);
+      steepness_ = std::max(steepness_, math::hypot(1.0, slope));
+    }
   }
-  jumps_.push_back(profile_.back().to.x);
+  if (profile.empty()) return;
+  jumps_.push_back(profile.front().from.x);
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+    if (!(profile[i].to == profile[i + 1].from)) jumps_.push_back(profile[i].to.x);
+  }
+  jumps_.push_back(profile.back().to.x);
 }
 
 bool Region::jumps_within(double low_run, double high_run) const {
@@ -166,7 +212,7 @@ void Region::build_boxes(std::size_t node, std::size_t begin, std::size_t end) {
 }
 
 void Region::search(std::size_t node, std::size_t begin, std::size_t end, std::span<const Vec2> shape,
-                    const Box& around, Nearest& nearest) const {
+                    const Box& around, Found& nearest) const {
   const auto apart = [&](const Box& box) {
     return math::hypot(std::max({box.low.x - around.high.x, 0.0, around.low.x - box.high.x}),
                        std::max({box.low.y - around.high.y, 0.0, around.low.y - box.high.y}));
@@ -174,7 +220,7 @@ void Region::search(std::size_t node, std::size_t begin, std::size_t end, std::s
   if (end - begin <= kEdgesOfLeaf || 2 * node + 1 >= boxes_.size()) {
     for (std::size_t i = begin; i < end; ++i) {
       const Nearest here = between(shape, edges_[i].from, edges_[i].to);
-      if (here.value < nearest.value) nearest = here;
+      if (here.value < nearest.value) nearest = {here, i};
     }
     return;
   }
@@ -191,13 +237,13 @@ void Region::search(std::size_t node, std::size_t begin, std::size_t end, std::s
   }
 }
 
-Nearest Region::nearest_edge(std::span<const Vec2> shape) const {
+Region::Found Region::nearest_edge(std::span<const Vec2> shape) const {
   Box around{shape[0], shape[0]};
   for (const Vec2 p : shape) {
     around.low = {std::min(around.low.x, p.x), std::min(around.low.y, p.y)};
     around.high = {std::max(around.high.x, p.x), std::max(around.high.y, p.y)};
   }
-  Nearest nearest;
+  Found nearest;
   search(1, 0, edges_.size(), shape, around, nearest);
   return nearest;
 }
@@ -254,88 +300,8 @@ std::vector<std::vector<Vec2>> Region::cut_off(std::size_t entered, std::size_t 
   return {between, others};
 }
 
-bool Region::inside(Vec2 point) const {
-  bool odd = false;
-  for (const Edge& edge : edges_) {
-    const Vec2 a = edge.from;
-    const Vec2 b = edge.to;
-    if ((a.y > point.y) == (b.y > point.y)) continue;
-    if (point.x < a.x + (b.x - a.x) * (point.y - a.y) / (b.y - a.y)) odd = !odd;
-  }
-  return odd;
-}
-
-// Of a shape that meets the area: along each of its sides the pieces within the area are found from where the
-// outline crosses it, however short, and some points of each are measured.
-Nearest Region::deepest_within(std::span<const Vec2> shape) const {
-  Nearest deepest{0.0, nearest_edge(shape).point};
-  const std::size_t sides = shape.size() <= 2 ? 1 : shape.size();
-  for (std::size_t i = 0; i < sides; ++i) {
-    const Vec2 from = shape[i];
-    const Vec2 along = shape[(i + 1) % shape.size()] - from;
-    std::vector<double> shares{0.0, 1.0};
-    for (const Edge& edge : edges_) {
-      const Vec2 other = edge.to - edge.from;
-      const double area = cross(along, other);
-      if (area == 0.0) continue;
-      const double share = cross(edge.from - from, other) / area;
-      const double on_edge = cross(edge.from - from, along) / area;
-      if (share > 0.0 && share < 1.0 && on_edge >= 0.0 && on_edge <= 1.0) shares.push_back(share);
-    }
-    std::sort(shares.begin(), shares.end());
-    for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
-      if (!inside(from + 0.5 * (shares[k] + shares[k + 1]) * along)) continue;
-      for (int sample = 0; sample <= kDepthSamples; ++sample) {
-        const double part = static_cast<double>(sample) / kDepthSamples;
-        const Vec2 point = from + (shares[k] + part * (shares[k + 1] - shares[k])) * along;
-        const double depth = nearest_edge({&point, 1}).value;
-        if (-depth < deepest.value) deepest = {-depth, point};
-      }
-    }
-  }
-  return deepest;
-}
-
-// How far a shape reaches behind the profile: both its own edge and the profile are linear between their
-// corners, so that the depth is greatest at one of these. Negative where all of it is in front; infinite where
-// none of it lies over the profile's runs.
-Nearest Region::deepest_behind(std::span<const Vec2> shape) const {
-  Nearest deepest{-core::kInfinity, {}};
-  double low = core::kInfinity;
-  double high = -core::kInfinity;
-  for (const Vec2 p : shape) {
-    low = std::min(low, p.x);
-    high = std::max(high, p.x);
-  }
-  // The drop of the shape's edge that is turned to the profile.
-  const auto outermost = [&](double run) {
-    double drop = -core::kInfinity;
-    const std::size_t sides = shape.size() <= 2 ? 1 : shape.size();
-    for (std::size_t i = 0; i < sides; ++i) {
-      Vec2 a = shape[i];
-      Vec2 b = shape[(i + 1) % shape.size()];
-      if (a.x > b.x) std::swap(a, b);
-      if (run < a.x || run > b.x) continue;
-      drop = std::max({drop, a.x == b.x ? std::max(side_ * a.y, side_ * b.y)
-                                        : side_ * (a.y + (b.y - a.y) * (run - a.x) / (b.x - a.x))});
-    }
-    return side_ * drop;
-  };
-  auto edge = std::lower_bound(profile_.begin(), profile_.end(), low,
-                               [](const Edge& at, double run) { return at.to.x < run; });
-  for (; edge != profile_.end() && edge->from.x <= high; ++edge) {
-    const auto see = [&](double run) {
-      if (run < edge->from.x || run > edge->to.x || run < low || run > high) return;
-      const double share = (run - edge->from.x) / (edge->to.x - edge->from.x);
-      const double drop = outermost(run);
-      const double depth = side_ * (drop - (edge->from.y + share * (edge->to.y - edge->from.y)));
-      if (depth > deepest.value) deepest = {depth, {run, drop}};
-    };
-    see(edge->from.x);
-    see(edge->to.x);
-    for (const Vec2 p : shape) see(p.x);
-  }
-  return deepest;
+double Region::distance(Vec2 point, std::size_t edge) const {
+  return norm(nearest_of_segment(point, edges_[edge].from, edges_[edge].to) - point);
 }
 
 Nearest Region::nearest(std::span<const Vec2> shape) const {
@@ -347,17 +313,17 @@ Nearest Region::nearest(std::span<const Vec2> shape) const {
     }
     return nearest;
   }
-  const Nearest apart = nearest_edge(shape);
-  if (!profile_.empty()) {
-    const Nearest behind = deepest_behind(shape);
-    if (behind.value > 0.0) {
-      if (kind_ == Kind::area) return {-behind.value, behind.point};
-      return {-nearest_edge({&behind.point, 1}).value, behind.point};
-    }
-    return apart;
-  }
-  if (apart.value > 0.0 && !inside(shape[0])) return apart;
-  return deepest_within(shape);
+  const Depth depth = deepest(shape);
+  if (depth.told) return {-depth.value, depth.point};
+  return nearest_edge(shape);
+}
+
+// A larger shape has no larger value: that of all within the distance bounds that of each, be it where the value jumps.
+double Region::lower_bound(std::span<const Vec2> shape, double distance) const {
+  if (kind_ == Kind::half_plane) return nearest(shape).value - distance;
+  const Depth depth = deepest(grown(shape, distance));
+  if (depth.at_most > 0.0) return -depth.at_most;
+  return std::max(0.0, nearest_edge(shape).value - distance);
 }
 
 }  // namespace glissade::clearance

@@ -2,6 +2,8 @@
 
 #include "glissade/core/vec.hpp"
 
+#include "clearance/convex.hpp"
+
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -17,6 +19,10 @@ struct Nearest {
   double value = std::numeric_limits<double>::infinity();  ///< signed distance [m]; negative inside
   Vec2 point;                                              ///< of the shape
 };
+
+/// Depths are known to this share of themselves, below that to the rounding of the coordinates.
+inline constexpr double kRegionDepthAccuracy =
+    1e-8;  // accuracy: a hundredth of what least clearances are told to
 
 /// What tracks keep clear of.
 ///
@@ -37,11 +43,14 @@ class Region {
   /// @param forbidden  square to the line, towards the forbidden side; any length > 0
   [[nodiscard]] static Region half_plane(Vec2 point, Vec2 forbidden);
 
-  /// The least value over a convex shape. Distances and the sign are exact; so is the depth below lines and
-  /// half-planes and on the wrong side of areas. The depth within an area passed on either side is that of the
-  /// deepest of some points.
+  /// The least value over a convex shape, that of one of its points: distances and the sign are exact to rounding, and
+  /// so are depths beyond half-planes and on the wrong side of areas; others are known to kRegionDepthAccuracy. A larger
+  /// shape has no larger one.
   /// @param shape  a point, a segment, or the corners of a convex polygon in order
   [[nodiscard]] Nearest nearest(std::span<const Vec2> shape) const;
+
+  /// @return no more than the value of any point within a distance of the shape
+  [[nodiscard]] double lower_bound(std::span<const Vec2> shape, double distance) const;
 
   /// Where a segment meets an edge of the region.
   struct Crossing {
@@ -63,6 +72,10 @@ class Region {
   ///   or an area, which no distance is measured from
   [[nodiscard]] bool jumps_within(double low_run, double high_run) const;
 
+  /// @return by how much the value of a point below 0 changes at most from one place to another, as a share of their
+  ///   distance, where it does not jump; above 0 it is that distance itself
+  [[nodiscard]] double steepness() const { return steepness_; }
+
  private:
   enum class Kind { area, line, half_plane };
 
@@ -75,29 +88,48 @@ class Region {
     Vec2 high;
   };
 
+  /// Of what is forbidden, the part between two runs, an edge above and one below; either may be infinitely far.
+  struct Piece {
+    Edge upper;
+    Edge lower;
+
+    [[nodiscard]] Convex part_of(std::span<const Vec2> shape) const;
+  };
+  struct Found : Nearest {
+    std::size_t edge = 0;
+  };
+  struct Depth {
+    double value = 0.0;    ///< of the deepest place found [m]; 0 where none is
+    double at_most = 0.0;  ///< no place is deeper [m]
+    bool told = false;     ///< whether it is more than a rounding
+    Vec2 point;
+  };
+  struct Sounding;
+
   explicit Region(Kind kind) : kind_(kind) {}
 
   void add_edges(const std::vector<Vec2>& corners, bool closed);
-  void add_jumps();
+  void add_inside(const std::vector<Vec2>& outline);
   void add_profile(const std::vector<Vec2>& outline, double side);
+  void add_behind(const std::vector<Edge>& profile, double side);
   void build_boxes(std::size_t node, std::size_t begin, std::size_t end);
   void search(std::size_t node, std::size_t begin, std::size_t end, std::span<const Vec2> shape,
-              const Box& around, Nearest& nearest) const;
-  [[nodiscard]] Nearest nearest_edge(std::span<const Vec2> shape) const;
+              const Box& around, Found& nearest) const;
+  [[nodiscard]] Found nearest_edge(std::span<const Vec2> shape) const;
   void meet(std::size_t node, std::size_t begin, std::size_t end, Vec2 from, Vec2 to,
             std::vector<Crossing>& found) const;
-  [[nodiscard]] bool inside(Vec2 point) const;
-  [[nodiscard]] Nearest deepest_within(std::span<const Vec2> shape) const;
-  [[nodiscard]] Nearest deepest_behind(std::span<const Vec2> shape) const;
+  [[nodiscard]] double distance(Vec2 point, std::size_t edge) const;
+  [[nodiscard]] Depth deepest(std::span<const Vec2> shape) const;
 
   Kind kind_;
   Pass pass_ = Pass::either;
   std::vector<Edge> edges_;    // what distances are measured from
   std::vector<Box> boxes_;     // tree over them
-  std::vector<Edge> profile_;  // ascending runs: what lies behind it is forbidden
-  std::vector<double> jumps_;  // runs at which it begins, breaks off or ends
-  double side_ = 0.0;          // +1: forbidden below the profile (larger drop), -1: above it
-  Vec2 forbidden_;             // unit vector, of a half-plane
+  std::vector<Piece> pieces_;  // ascending runs: what is forbidden
+  std::vector<double> jumps_;  // runs at which what lies behind a profile begins, breaks off or ends
+  double steepness_ = 1.0;
+  double side_ = 0.0;  // +1: forbidden below a profile (larger drop), -1: above it
+  Vec2 forbidden_;     // unit vector, of a half-plane
 };
 
 }  // namespace glissade::clearance

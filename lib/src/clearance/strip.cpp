@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/units.hpp"
 
+#include "clearance/convex.hpp"
 #include "core/float_limits.hpp"
 
 #include <algorithm>
@@ -10,12 +11,13 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace glissade::clearance {
 namespace {
 
-// Halving ends here: a cell of a station's distance by 2^40 is a point.
-constexpr int kDeepest = 40;
+constexpr int kDeepest = 40;                // rounding: a cell of a station's distance by 2^40 is a point
+constexpr std::size_t kMostLooks = 200000;  // budget: the most that was measured is 40,950
 // Halvings that find the foot of a point on the track.
 constexpr int kFootSteps = 50;
 // Depths are known to this share of themselves.
@@ -23,45 +25,33 @@ constexpr double kDepthAccuracy = 1e-6;  // accuracy: of a depth, below that of 
 // Heights that differ by less than this share of the envelope's are the same.
 constexpr double kSameHeight = 1e-9;
 
-/// The hull of two segments, in order.
-std::vector<Vec2> hull(std::array<Vec2, 4> points) {
-  std::sort(points.begin(), points.end(), [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<Vec2> corners;
-  const auto add = [&](Vec2 point, std::size_t least) {
-    while (corners.size() >= least + 2 &&
-           cross(corners.back() - corners[corners.size() - 2], point - corners.back()) <= 0.0) {
-      corners.pop_back();
-    }
-    if (corners.empty() || !(corners.back() == point)) corners.push_back(point);
-  };
-  for (const Vec2 point : points) add(point, 0);
-  const std::size_t upper = corners.size() - 1;
-  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], upper);
-  if (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
-  return corners;
-}
-
-/// The part of a convex shape in front of a line.
-std::vector<Vec2> clipped(const std::vector<Vec2>& shape, Vec2 on_line, Vec2 forward) {
-  std::vector<Vec2> corners;
-  for (std::size_t i = 0; i < shape.size(); ++i) {
-    const Vec2 a = shape[i];
-    const Vec2 b = shape[(i + 1) % shape.size()];
-    const double at_a = dot(a - on_line, forward);
-    const double at_b = dot(b - on_line, forward);
-    if (at_a >= 0.0) corners.push_back(a);
-    if ((at_a < 0.0) != (at_b < 0.0)) corners.push_back(a + at_a / (at_a - at_b) * (b - a));
-  }
-  return corners;
-}
-
 }  // namespace
 
-/// The closest place found so far, and what it is looked for against.
+/// What lies between two normals, and how close these come.
+struct Strip::Cell {
+  Rib from;
+  double at_from = 0.0;
+  Rib to;
+  double at_to = 0.0;
+  int halvings = 0;
+  double bound = -core::kInfinity;  // nothing of it comes closer
+};
+
+/// The closest place found so far, and the cells that may hold a closer one, that of the least bound on top of the heap.
 struct Strip::Search {
   const Region& region;
   double accuracy;
   Approach best;
+  std::vector<Cell> cells;
+
+  /// An envelope that reaches into the region at one place, be it by a rounding, may run through a post at another: the search
+  /// goes on, and depths are settled to a share of themselves.
+  [[nodiscard]] bool settled(double bound) const {
+    return bound >= best.value - std::max(accuracy, -kDepthAccuracy * best.value);
+  }
+  static bool later(const Cell& a, const Cell& b) {
+    return a.bound != b.bound ? a.bound > b.bound : a.from.s > b.from.s;
+  }
 };
 
 Strip::Strip(const Centerline& centerline, const Envelope& envelope,
@@ -70,7 +60,8 @@ Strip::Strip(const Centerline& centerline, const Envelope& envelope,
   start_ = rib(stations.front());
   finish_ = rib(stations.back());
   // A plane cuts only normals of stations whose direction is within a right angle of its own.
-  start_zone_ = finish_.s;
+  start_zone_ = core::kInfinity;
+  finish_zone_ = -core::kInfinity;
   for (const CenterlinePoint& station : stations) {
     if (std::fabs(station.slope_angle - start_.slope) < kRightAngle) continue;
     start_zone_ = station.arc_length;
@@ -169,15 +160,16 @@ double Strip::straying(const Rib& a, const Rib& b) const {
     const double fold_b = height == 0.0 ? 0.0 : b.kappa * height;
     const double least_fold = std::min(fold_a, fold_b);
     const double most_fold = std::max(fold_a, fold_b);
-    const bool plain = most_fold < 1.0;
+    const bool plain = most_fold <= 1.0;
     double arc = length + std::fabs(height) * turned;
     if (plain) arc = length - height * turn;
-    if (least_fold > 1.0) arc = height * turn - length;
+    const bool folded = least_fold >= 1.0;
+    if (folded) arc = height * turn - length;
     const double chord = norm(b.point + height * b.normal - a.point - height * a.normal);
     // The difference of two lengths that are all but equal is rounding.
     const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (finish_.s + std::fabs(height));
     double straying = 0.5 * std::sqrt(std::max(0.0, arc - chord + rounding) * (arc + chord));
-    if (plain || least_fold > 1.0) straying = std::min(straying, 0.25 * arc * turned);
+    if (plain || folded) straying = std::min(straying, 0.25 * arc * turned);
     most = std::max(most, straying);
   }
   return most;
@@ -187,65 +179,85 @@ double Strip::lower_bound(const Rib& a, const Rib& b, const Region& region) cons
   const double straying = this->straying(a, b);
   const double low = -envelope_.below;
   const double high = envelope_.top();
-  std::vector<Vec2> shape = hull({a.point + low * a.normal, a.point + high * a.normal,
-                                  b.point + low * b.normal, b.point + high * b.normal});
+  Convex shape = hull({a.point + low * a.normal, a.point + high * a.normal, b.point + low * b.normal,
+                       b.point + high * b.normal});
   if (a.s < start_zone_) {
     shape = clipped(shape, start_.point - straying * start_.tangent, start_.tangent);
   }
   if (b.s > finish_zone_) {
     shape = clipped(shape, finish_.point + straying * finish_.tangent, -1.0 * finish_.tangent);
   }
-  double least = shape.empty() ? core::kInfinity : region.nearest(shape).value;
+  double least = shape.empty() ? core::kInfinity : region.lower_bound(shape, straying);
   const double headroom = envelope_.headroom;
   if (headroom > 0.0 && (a.s < start_zone_ || b.s > finish_zone_)) {
-    const std::vector<Vec2> uncut =
+    const Convex uncut =
         hull({a.point, a.point + headroom * a.normal, b.point, b.point + headroom * b.normal});
-    least = std::min(least, region.nearest(uncut).value);
+    least = std::min(least, region.lower_bound(uncut, straying));
   }
-  return least - straying;
+  return least;
 }
 
-// Halves a cell as long as it may hold something closer. An envelope that reaches into the region at one place, be it by
-// a rounding, may run through a post at another: the search goes on, and depths are settled to a share of themselves.
-void Strip::look(const Rib& a, double at_a, const Rib& b, double at_b, int depth, Search& search) const {
+// Whether the values at the ends of a cell tell that nothing of it comes closer than what is found.
+bool Strip::passes_by(const Cell& cell, const Search& search) const {
+  const Rib& a = cell.from;
+  const Rib& b = cell.to;
+  if (a.cut_at_start || b.cut_at_start || a.cut_at_finish || b.cut_at_finish) return false;
   // No point of the cell is further from both normals than this.
   const double height = std::max(envelope_.below, envelope_.top());
   const double turned = a.kappa * b.kappa >= 0.0
                             ? std::fabs(a.slope - b.slope)
                             : (b.s - a.s) * std::max(std::fabs(a.kappa), std::fabs(b.kappa));
   const double across = b.s - a.s + height * turned;
-  const bool is_cut = a.cut_at_start || b.cut_at_start || a.cut_at_finish || b.cut_at_finish;
   const double reach = across + height;
-  const bool steady = !is_cut && !search.region.jumps_within(std::min(a.point.x, b.point.x) - reach,
-                                                             std::max(a.point.x, b.point.x) + reach);
-  if (steady && std::min(at_a, at_b) - across > search.best.value) return;
-  if (depth >= kDeepest) return;
-  const double accuracy = std::max(search.accuracy, -kDepthAccuracy * search.best.value);
-  if (lower_bound(a, b, search.region) >= search.best.value - accuracy) return;
-  const double middle = 0.5 * (a.s + b.s);
-  if (!(middle > a.s && middle < b.s)) return;
-  Rib between = rib(centerline_.at(middle));
-  cut(between);
-  const Approach here = approach(between, search.region);
-  if (here.value < search.best.value) search.best = here;
-  look(a, at_a, between, here.value, depth + 1, search);
-  look(between, here.value, b, at_b, depth + 1, search);
+  if (search.region.jumps_within(std::min(a.point.x, b.point.x) - reach,
+                                 std::max(a.point.x, b.point.x) + reach)) {
+    return false;
+  }
+  const double least = std::min(cell.at_from, cell.at_to);
+  return least - across > std::max(0.0, search.best.value) ||
+         least - search.region.steepness() * across > search.best.value;
 }
 
-Approach Strip::least(const Region& region, const std::vector<Approach>& stations, double accuracy) const {
-  Search search{region, accuracy,
+void Strip::add(Cell cell, Search& search) const {
+  if (cell.halvings >= kDeepest || passes_by(cell, search)) return;
+  cell.bound = std::max(cell.bound, lower_bound(cell.from, cell.to, search.region));
+  if (search.settled(cell.bound)) return;
+  search.cells.push_back(std::move(cell));
+  std::push_heap(search.cells.begin(), search.cells.end(), Search::later);
+}
+
+// Halves the cell that may hold the closest place, until none holds one that is closer than what is found.
+Least Strip::least(const Region& region, const std::vector<Approach>& stations, double accuracy) const {
+  Search search{region,
+                accuracy,
                 *std::min_element(stations.begin(), stations.end(),
-                                  [](const Approach& a, const Approach& b) { return a.value < b.value; })};
-  // The most promising cells first: what they find spares the others.
-  std::vector<std::size_t> order(ribs_.size() - 1);
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto promise = [&](std::size_t i) { return std::min(stations[i].value, stations[i + 1].value); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t k) { return promise(i) < promise(k); });
-  for (const std::size_t i : order) {
-    look(ribs_[i], stations[i].value, ribs_[i + 1], stations[i + 1].value, 0, search);
+                                  [](const Approach& a, const Approach& b) { return a.value < b.value; }),
+                {}};
+  for (std::size_t i = 0; i + 1 < ribs_.size(); ++i) {
+    add({ribs_[i], stations[i].value, ribs_[i + 1], stations[i + 1].value}, search);
   }
-  return search.best;
+  std::size_t looks = 0;
+  while (!search.cells.empty()) {
+    std::pop_heap(search.cells.begin(), search.cells.end(), Search::later);
+    const Cell cell = std::move(search.cells.back());
+    search.cells.pop_back();
+    if (search.settled(cell.bound)) break;
+    const double middle = 0.5 * (cell.from.s + cell.to.s);
+    if (!(middle > cell.from.s && middle < cell.to.s)) continue;
+    Rib between = rib(centerline_.at(middle));
+    cut(between);
+    const Approach here = approach(between, region);
+    if (here.value < search.best.value) search.best = here;
+    if (++looks == kMostLooks) {
+      // Nothing is closer than that: no clearance is called larger than it is.
+      search.best = here;
+      search.best.value = cell.bound;
+      break;
+    }
+    add({cell.from, cell.at_from, between, here.value, cell.halvings + 1, cell.bound}, search);
+    add({between, here.value, cell.to, cell.at_to, cell.halvings + 1, cell.bound}, search);
+  }
+  return {search.best, looks};
 }
 
 /// A stretch of an edge of the envelope within a region, and the region's edges at its ends.

@@ -18,6 +18,12 @@ struct Approach {
   EnvelopePlace place;
 };
 
+/// What Strip::least() finds.
+struct Least {
+  Approach closest;
+  std::size_t looks = 0;  ///< normals that it took beside those of the stations
+};
+
 /// The envelope of a centerline as a region of the plane, and its distance from what must be kept clear.
 ///
 /// Shape: the union of the normals of all stations, each from the underside to the top, cut where it passes
@@ -25,10 +31,13 @@ struct Approach {
 ///   several normals pass lies in the solid all the same (docs/solid.md).
 /// Method: between two stations a level at height n strays from the chord of its ends by no more than
 ///   sqrt(L^2 - l^2)/2, L its arc length and l that chord, nor by more than L/4 times the angle that it turns.
-///   The cell between two stations lies within that of the hull of their normals: a lower bound of its
-///   distance. Cells that may hold the least one are halved until the bounds meet.
+///   The cell between two stations lies within that of the hull of their normals: all that lies so near the hull has a value no
+///   larger, and that is told as a normal's is. The cell that may hold the least value is halved until none may hold one that is smaller
+///   by more than the accuracy; of cells that are points to rounding the normals count.
 /// Accuracy: least() exceeds the true least distance by no more than `accuracy`, as long as that is positive,
-///   and its sign is right; a negative one is the depth to a millionth, as far as Region tells depths; on each smooth piece curvature is taken to be monotone or of one sign.
+///   and its sign is right; a negative one is the depth to a millionth, which is the value of its place. Where values jump (Region) the place
+///   of the jump is known to 1e-12 of a station's distance. On each smooth piece curvature is taken to be monotone or of one sign.
+/// Cost: some 20 looks, thousands where much of the track is all but equally close; after 200,000 the bound counts in place of what was found, which is below the true least distance.
 class Strip {
  public:
   /// @param stations  points of the centerline from start to finish, its breaks among them
@@ -39,8 +48,8 @@ class Strip {
 
   /// @param stations  what along() found
   /// @return the closest place of all
-  [[nodiscard]] Approach least(const Region& region, const std::vector<Approach>& stations,
-                               double accuracy) const;
+  [[nodiscard]] Least least(const Region& region, const std::vector<Approach>& stations,
+                            double accuracy) const;
 
   /// How far what stands right through the envelope, or through one of its edges, reaches beyond: a post a hair thin has
   /// a depth of half a hair, and still stands in the way. Of what an edge of the envelope cuts off the part that
@@ -67,6 +76,7 @@ class Strip {
     bool cut_at_start = false;
     bool cut_at_finish = false;
   };
+  struct Cell;
   struct Search;
 
   [[nodiscard]] Rib rib(const CenterlinePoint& point) const;
@@ -75,15 +85,16 @@ class Strip {
   [[nodiscard]] EnvelopePart part_of(const Rib& rib, double height) const;
   [[nodiscard]] double straying(const Rib& a, const Rib& b) const;
   [[nodiscard]] double lower_bound(const Rib& a, const Rib& b, const Region& region) const;
-  void look(const Rib& a, double at_a, const Rib& b, double at_b, int depth, Search& search) const;
+  [[nodiscard]] bool passes_by(const Cell& cell, const Search& search) const;
+  void add(Cell cell, Search& search) const;
 
   const Centerline& centerline_;
   Envelope envelope_;
   std::vector<Rib> ribs_;
   Rib start_;
   Rib finish_;
-  double start_zone_ = 0.0;   // up to here normals may pass behind the start's plane [m]
-  double finish_zone_ = 0.0;  // from here on behind that of the finish [m]
+  double start_zone_ = 0.0;   // up to here normals may pass behind the start's plane [m]; infinity: anywhere
+  double finish_zone_ = 0.0;  // from here on behind that of the finish [m]; -infinity: anywhere
 };
 
 }  // namespace glissade::clearance

@@ -84,7 +84,8 @@ void Watches::at_obstacles(const Centerline& track, const std::vector<Centerline
       clear.see(near.value, near.arc_length, {}, place_of(near));
     }
     // A post between two samples, or the corner of an area, comes closer than any sample tells.
-    const clearance::Approach least = strip.least(obstacle.region, stations, kClearanceAccuracy * chord_);
+    const clearance::Approach least =
+        strip.least(obstacle.region, stations, kClearanceAccuracy * chord_).closest;
     clear.see(least.value, least.arc_length, {}, place_of(least));
     if (!(least.value < 0.0)) continue;
     const std::optional<clearance::Approach> pierced = strip.pierced(obstacle.region);
