@@ -95,7 +95,7 @@ void add_timber_bolts(Workshop& workshop, int size, double grip, std::size_t cou
   constexpr double kWasher = 0.3;  // thickness over the diameter: ISO 7094, and EN 1995-1-1, 10.4.3
   constexpr double kStep = 10e-3;  // long bolts come in these
   const double washers = 2.0 * (kWasher * 1e-3 * size - bolt.washer_height);
-  const double length = kStep * std::ceil(bolt_length(bolt, grip + washers) / kStep - 1e-9);
+  const double length = kStep * std::ceil(least_bolt_length(bolt, grip + washers) / kStep - 1e-9);
   const std::string name = "M" + std::to_string(size);
   add_item(workshop, {"bolt " + name + " x " + rounded_text(1e3 * length, 4), "EN 14592", count, where});
   add_item(workshop, {"nut " + name, "ISO 4032 8", count, where});
