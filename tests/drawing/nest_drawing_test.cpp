@@ -90,3 +90,37 @@ TEST_CASE("labels of a nest lie inside their piece, and what is not cut is grey 
     CHECK(grey == own.at("LABEL") + own.at("SHEET"));
   }
 }
+
+TEST_CASE("labels of a nest lie inside plates of every width with all of their strokes, descenders too") {
+  Workshop workshop;
+  for (double width = 6e-3; width < 60e-3; width += 0.7e-3) {
+    ShopPart part;
+    part.number = static_cast<int>(workshop.parts.size()) + 1;
+    part.name = "gyp(py_g)";
+    part.material = "S235";
+    part.thickness = 3e-3;
+    part.density = 7850.0;
+    part.places.resize(1);
+    part.pattern.emplace();
+    part.pattern->region.outline = rectangle({}, {0.4, width});
+    part.body = Prism{part.pattern->region, 3e-3};
+    workshop.parts.push_back(std::move(part));
+  }
+  std::size_t labels = 0;
+  for (const NestedSheet& sheet : nest(workshop)) {
+    std::vector<PlaneRegion> regions;
+    for (const NestedPiece& piece : sheet.pieces)
+      regions.push_back(scaled(moved(workshop.parts[piece.part].pattern->region, piece.motion), 1000.0));
+    const Drawing drawing = nest_drawing(workshop, sheet);
+    for (const DrawnPath& drawn : drawing.paths) {
+      if (drawing.layers[drawn.layer].name != "LABEL") continue;
+      ++labels;
+      const std::vector<Vec2> points = flattened(drawn.path, 0.01);
+      CHECK(std::any_of(regions.begin(), regions.end(), [&](const PlaneRegion& region) {
+        return std::all_of(points.begin(), points.end(),
+                           [&](Vec2 point) { return contains(region.outline, point); });
+      }));
+    }
+  }
+  CHECK(labels > 500);
+}

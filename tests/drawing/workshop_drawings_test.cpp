@@ -189,6 +189,8 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
   CHECK(cuts.find("\n1,left_wall,S235,4,2,") != std::string::npos);
   CHECK(cuts.find("\n4,gore,S235,4,2,,,,,,0,0,") != std::string::npos);
   const std::string out = setting_out_csv(workshop);
+  // The distance travelled, whichever way the track runs: as `run_m` of stations.
+  CHECK(out.starts_with("what,arc_length_mm,run_mm,z_mm,site_x_m,"));
   CHECK(out.find("ordinate_mm,underside mm\nstart,0,0,0,0,0,0,") != std::string::npos);
   // What is upright rises without bound, over whatever rounding leaves of its run.
   for (const auto& [degrees, percent] :

@@ -4,11 +4,17 @@
 
 #include "support/catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 using namespace glissade;
 
-TEST_CASE("bolts: lengths reach through grip, both washers, nut and two threads, and no step farther") {
+TEST_CASE(
+    "bolts: lengths reach through grip, both washers, nut and two threads, and no nominal length farther") {
+  // ISO 888, as ISO 4017 and ISO 10642 have them [mm].
+  const std::vector<int> nominal = {12, 16, 20, 25, 30, 35, 40,  45,  50,
+                                    55, 60, 65, 70, 80, 90, 100, 110, 120};
   for (const int size : bolt_sizes()) {
     const parts::Bolt& bolt = parts::bolt_of(size);
     const double threads = 0.3e-3 * size;
@@ -17,12 +23,29 @@ TEST_CASE("bolts: lengths reach through grip, both washers, nut and two threads,
       const double length = parts::bolt_length(bolt, grip);
       const double taken = grip + bolt.washer_height + bolt.washer_height + bolt.nut_height + threads;
       CHECK(length >= taken - 1e-9);
-      CHECK(length < taken + 5e-3);
-      CHECK(std::fabs(length / 5e-3 - std::nearbyint(length / 5e-3)) < 1e-9);
+      const auto chosen = std::find_if(nominal.begin(), nominal.end(),
+                                       [&](int one) { return std::fabs(1e-3 * one - length) < 1e-9; });
+      REQUIRE(chosen != nominal.end());
+      if (chosen != nominal.begin()) CHECK(1e-3 * *(chosen - 1) < taken);
     }
   }
   // By hand, ISO 7089 and ISO 4032: 15 + 2 x 2.2 + 8.4 + 3 = 30.8 mm; with one washer it would be 30 mm.
   CHECK(parts::bolt_length(parts::bolt_of(10), 15e-3) == Approx(35e-3).epsilon(1e-12));
+  // There is no 15, and no 75 and 85: a lid of 5 mm in all with M6 takes 5 + 2 x 1.8 + 5.2 + 1.8 = 15.6 mm.
+  CHECK(parts::bolt_length(parts::bolt_of(6), 4.4e-3) == Approx(16e-3).epsilon(1e-12));
+  CHECK(parts::bolt_length(parts::bolt_of(10), 55e-3) == Approx(80e-3).epsilon(1e-12));
+  CHECK(parts::bolt_length(parts::bolt_of(10), 160e-3) == Approx(180e-3).epsilon(1e-12));
+}
+
+TEST_CASE("bolts: countersunk heads are as high as ISO 10642 has them, up to M20") {
+  for (const int size : bolt_sizes()) {
+    CAPTURE(size);
+    const parts::Bolt& bolt = parts::bolt_of(size);
+    CHECK((bolt.head_height > 0.0) == (size <= 20));
+    if (size > 20) continue;
+    CHECK(bolt.head_height > 0.4e-3 * size);
+    CHECK(bolt.head_height < 0.65e-3 * size);
+  }
 }
 
 TEST_CASE("bolts: centres are even, at both ends, and no farther apart than the pitch") {

@@ -304,7 +304,7 @@ void tells_of_early_hood(const Design& design, const Track& track, const std::st
   const auto problem = search_problem(design, track);
   REQUIRE(problem);
   CHECK_THAT(problem->what, Contains("the search for the hood ended early: ") && Contains(why));
-  CHECK_THAT(problem->hint, Contains("--time-budget"));
+  CHECK(problem->hint == hint_to_search_on(track.early_hood->interrupted));
   const json document = told(design, track);
   CHECK(document["hood"]["not_converged"] == track.early_hood->message);
   if (!track.search) return;

@@ -103,7 +103,7 @@ SheetTable setting_out_table(const Workshop& workshop) {
   table.caption =
       "Setting out: x and z from the start, X Y Z of the site, ordinates above the chord of the piece";
   table.widths_mm = {64.0, 20.0, 20.0, 20.0, 24.0, 24.0, 24.0, 19.0, 23.0, 18.0};
-  table.header = {"what", "s mm", "x mm",      "z mm",      "X mm",
+  table.header = {"what", "s mm", "run mm",    "z mm",      "X mm",
                   "Y mm", "Z mm", "slope deg", "radius mm", "ordinate"};
   for (std::size_t i = 0; i < workshop.offset_names.size() && i < 4; ++i) {
     table.widths_mm.push_back(30.0);

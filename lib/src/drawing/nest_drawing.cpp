@@ -37,7 +37,8 @@ bool lies_inside(const PlaneRegion& region, const Label& label) {
   const Vec2 up{-along.y, along.x};
   const double half = 0.5 * stroked_width(label.text, label.height);
   for (int i = 0; i <= kSteps; ++i) {
-    for (const double side : {-0.7, 0.0, 0.7}) {
+    // Descenders and underscores reach down to 0.8 heights.
+    for (const double side : {-0.85, 0.0, 0.7}) {
       const double out = half * (2.0 * i / kSteps - 1.0);
       const Vec2 point = label.middle + out * along + side * label.height * up;
       const auto holds = [&](const ArcPath& cutout) { return contains(cutout, point); };
@@ -72,11 +73,17 @@ std::vector<Vec2> places_in(const PlaneRegion& region) {
 }
 
 /// A pattern on its sheet as a label has to keep clear of it: the number that is engraved counts as a hole.
-PlaneRegion room_for_label(const FlatPattern& pattern, const PlaneMotion& motion) {
+PlaneRegion room_for_label(const ShopPart& part, const PlaneMotion& motion) {
+  const FlatPattern& pattern = *part.pattern;
   PlaneRegion region = pattern.region;
   if (pattern.number_at) {
-    const double size = pattern.number_height;  // of two digits, about as wide as high
-    region.holes.push_back({*pattern.number_at + Vec2{0.6 * size, 0.5 * size}, 0.9 * size});
+    const double size = pattern.number_height;
+    const std::size_t digits = std::max<std::size_t>(2, std::to_string(part.number).size());
+    // Two digits are about as wide as high; each further one takes as much again as a digit.
+    for (std::size_t k = 0; k + 1 < digits; ++k) {
+      region.holes.push_back(
+          {*pattern.number_at + Vec2{(0.6 + 0.72 * static_cast<double>(k)) * size, 0.5 * size}, 0.9 * size});
+    }
   }
   return scaled(moved(region, motion), core::kMillimetres);
 }
@@ -136,7 +143,7 @@ Drawing nest_drawing(const Workshop& workshop, const NestedSheet& sheet, LayerPr
   if (pen.names().label == nullptr) return drawing;
   for (const NestedPiece& piece : sheet.pieces) {
     const ShopPart& part = workshop.parts[piece.part];
-    const auto label = label_of(part, room_for_label(*part.pattern, piece.motion));
+    const auto label = label_of(part, room_for_label(part, piece.motion));
     if (label) add_text(pen, pen.names().label, *label);
   }
   return drawing;

@@ -192,7 +192,8 @@ std::string bend_schedule_csv(const Workshop& workshop) {
 
 std::string setting_out_csv(const Workshop& workshop) {
   std::string header =
-      "what,arc_length_mm,x_mm,z_mm,site_x_m,site_y_m,site_z_m,slope_deg,slope_percent,radius_mm,ordinate_mm";
+      "what,arc_length_mm,run_mm,z_mm,site_x_m,site_y_m,site_z_m,slope_deg,slope_percent,radius_mm,ordinate_"
+      "mm";
   for (const std::string& name : workshop.offset_names) header += "," + quoted(name);
   Csv csv(header);
   for (const SettingOutPoint& point : workshop.setting_out) {

@@ -236,7 +236,6 @@ ShopPart piece_of_flat(const ShopPart& bar, const Span& along, std::size_t index
   piece.pattern->region = region;
   piece.body = Prism{std::move(region), std::get<Prism>(bar.body).depth};
   for (Frame& place : piece.places) place.origin = place.to_space({corner.x, corner.y, 0.0});
-  set_number_place(*piece.pattern, bounds(piece.pattern->region.outline));
   weigh(piece);
   return piece;
 }

@@ -56,7 +56,6 @@ FlatPattern between(const FlatPattern& whole, const Span& strip) {
   };
   move_lines(pattern.bends);
   move_lines(pattern.rolls);
-  set_number_place(pattern, bounds(pattern.region.outline));
   return pattern;
 }
 

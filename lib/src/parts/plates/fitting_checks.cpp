@@ -59,6 +59,30 @@ void object_to_tiles(const ChannelMeasures& channel, const LinerOptions& liner, 
   }
 }
 
+/// Heads end flush with the faces of tiles: what juts out is in the way of what slides.
+void object_to_heads(const LinerOptions& liner, Refusals& refusals) {
+  if (!is_bolt_size(liner.bolt) || !(liner.thickness > 0.0)) return;
+  const std::string name = "M" + std::to_string(liner.bolt);
+  const Bolt& bolt = bolt_of(liner.bolt);
+  if (bolt.head_height == 0.0) {
+    refusals.add("liner.bolt", "bolt: " + name + " has no countersunk head",
+                 "Tiles are held by countersunk bolts, and ISO 10642 ends at M20.", "a bolt of M5 to M20");
+    return;
+  }
+  if (liner.thickness >= bolt.head_height) return;
+  std::string smaller;
+  for (const int size : bolt_sizes()) {
+    const double height = bolt_of(size).head_height;
+    if (height > 0.0 && height <= liner.thickness) smaller = "bolt: M" + std::to_string(size) + ", or ";
+  }
+  refusals.add(
+      "liner.thickness",
+      "thickness: " + length_text(liner.thickness) + " is less than the heads of " + name + " are high, " +
+          length_text(bolt.head_height),
+      "Tiles are held by countersunk bolts (ISO 10642), whose heads must not jut out of their faces.",
+      smaller + "a thickness of " + length_text(bolt.head_height) + " or more");
+}
+
 void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options, Refusals& refusals) {
   const LinerOptions& liner = *options.liner;
   refusals.positive(liner.thickness, "liner.thickness", "thickness");
@@ -72,6 +96,7 @@ void object_to_liner(const ChannelMeasures& channel, const PlateOptions& options
                  "Tiles are plates that lie on the floor.", "thickness: 6 mm");
   }
   refusals.bolt(liner.bolt, "liner.bolt", "bolt");
+  object_to_heads(liner, refusals);
   if (!(liner.heaviest > 0.0)) {
     refusals.add("liner.heaviest", "heaviest: " + rounded_text(liner.heaviest, 4) + " kg is not positive", "",
                  "25 kg");

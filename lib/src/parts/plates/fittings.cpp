@@ -107,7 +107,6 @@ std::optional<ShopPart> along_track(const Job& job, const Span& span, const Span
   part.thickness = heights.to - heights.from;
   FlatPattern pattern;
   pattern.region.outline = rectangle({}, {length(*middle), width});
-  set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   return part;
 }

@@ -327,7 +327,6 @@ ShopPart piece_of(const ShopPart& plate, const PlaneRegion& region, std::size_t 
   piece.pattern->region = moved(region, into(own));
   piece.body = Prism{piece.pattern->region, std::get<Prism>(plate.body).depth};
   for (Frame& place : piece.places) place = moved_into(place, own);
-  set_number_place(*piece.pattern, bounds(piece.pattern->region.outline));
   weigh(piece);
   return piece;
 }

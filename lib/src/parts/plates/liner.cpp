@@ -67,7 +67,6 @@ ShopPart tile_of(const Job& job, const TilePlace& tile, const StockMaterial& mat
       pattern.region.holes.push_back({{whole - flat_from_end(job.track, tile.span, middle, s), y}, radius});
     }
   }
-  set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   drill_plate(job, tile.span, 0.0, tile.width, holes, part);
   return part;

@@ -21,7 +21,6 @@ namespace {
 constexpr Vec3 kUp{0.0, 0.0, 1.0};
 
 constexpr double kRolledFibre = 0.5;  // of the thickness: radii are large
-constexpr double kNumberHeight = 20e-3;
 
 /// A level line across a flat pattern.
 struct Across {
@@ -57,19 +56,6 @@ Vec3 in_space(const Placement& placement, Vec2 point) {
 
 Vec3 direction_in_space(const Placement& placement, Vec2 direction) {
   return direction.x * along(placement) + direction.y * kUp;
-}
-
-void set_number_place(FlatPattern& pattern, const PlaneBox& box) {
-  const double room = std::min(box.width(), box.height());
-  if (room < 2.0 * kNumberHeight) return;
-  pattern.number_height = kNumberHeight;
-  // Beside the outline's middle, where bands are widest.
-  const Vec2 middle = 0.5 * (box.low + box.high);
-  const Vec2 corner{middle.x - 1.5 * kNumberHeight, middle.y - 0.5 * kNumberHeight};
-  if (contains(pattern.region.outline, corner) &&
-      contains(pattern.region.outline, corner + Vec2{3.0 * kNumberHeight, kNumberHeight})) {
-    pattern.number_at = corner;
-  }
 }
 
 OwnPlane own_plane(const ArcPath& outline) {
@@ -223,7 +209,6 @@ ShopPart floor_plate(const Job& job, const FloorFace& face, const std::vector<Sp
     reached += length;
   }
   pattern.region = developed(job, face, sheet);
-  set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   return part;
 }
@@ -241,7 +226,6 @@ ShopPart wall_of(const Job& job, const PlaneRegion& region) {
   part.name = "wall";
   FlatPattern pattern;
   pattern.region = std::get<Prism>(part.body).region;
-  set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   return part;
 }

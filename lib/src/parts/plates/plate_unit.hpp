@@ -57,9 +57,6 @@ struct OwnPlane {
 /// @return where what was moved into its own plane lies, of a place of the plate that it was told in
 [[nodiscard]] Frame moved_into(const Frame& place, const OwnPlane& own);
 
-/// Says where the part's number may stand, if there is room for it.
-void set_number_place(FlatPattern& pattern, const PlaneBox& box);
-
 /// The face of a unit's floor: of the track's arcs, or of flats and bends. From its own origin.
 struct FloorFace {
   ArcSpline line;

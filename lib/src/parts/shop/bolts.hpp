@@ -18,13 +18,16 @@ struct Bolt {
   double large_washer_height = 0.0;  ///< ISO 7093-1 [m]
   double washer = 0.0;               ///< outer diameter, ISO 7089 [m]
   double large_washer = 0.0;         ///< outer diameter, ISO 7093-1 [m]
+  double head_height = 0.0;          ///< k of a countersunk one, ISO 10642 [m]; 0: it has none
 };
 /// @return whether its holes are known, as those of bolt_sizes() are
 [[nodiscard]] bool is_bolt_size(int size);
 /// @throws InputError if the size is unknown
 [[nodiscard]] const Bolt& bolt_of(int size);
 
-/// @return the least length, in steps of 5 mm, that reaches through a grip, two washers, the nut and two threads [m]
+/// @return what reaches through a grip, two washers, the nut and two threads [m]
+[[nodiscard]] double least_bolt_length(const Bolt& bolt, double grip);
+/// @return the least nominal length of ISO 888 (ISO 4017, ISO 10642) that does [m]
 [[nodiscard]] double bolt_length(const Bolt& bolt, double grip);
 
 /// Centres along a line: one at each end, the others evenly between, no farther apart than the pitch.

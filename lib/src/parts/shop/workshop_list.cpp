@@ -5,6 +5,7 @@
 #include "parts/bodies/body_moments.hpp"
 #include "parts/shop/bolts.hpp"
 #include "parts/shop/equal_parts.hpp"
+#include "parts/shop/pattern_marks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,7 @@ std::string name_without_side(const std::string& name) {
 }  // namespace
 
 int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& colour) {
+  if (part.pattern) clip_lines(*part.pattern);
   for (ShopPart& other : workshop.parts) {
     // Where the other one's body lies in this one's frame.
     const auto inner = place_in(other, part);
@@ -37,11 +39,13 @@ int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& col
   }
   part.number = static_cast<int>(workshop.parts.size()) + 1;
   part.colour = colour;
+  if (part.pattern) set_number_place(*part.pattern, part.number);
   workshop.parts.push_back(std::move(part));
   return workshop.parts.back().number;
 }
 
-void take_back(Workshop& workshop, const ShopPart& part, const Frame& place) {
+void take_back(Workshop& workshop, ShopPart part, const Frame& place) {
+  if (part.pattern) clip_lines(*part.pattern);
   for (ShopPart& other : workshop.parts) {
     const auto inner = place_in(other, part);
     if (!inner) continue;
@@ -95,7 +99,7 @@ void add_timber_bolts(Workshop& workshop, int size, double grip, std::size_t cou
   constexpr double kWasher = 0.3;  // thickness over the diameter: ISO 7094, and EN 1995-1-1, 10.4.3
   constexpr double kStep = 10e-3;  // long bolts come in these
   const double washers = 2.0 * (kWasher * 1e-3 * size - bolt.washer_height);
-  const double length = kStep * std::ceil(bolt_length(bolt, grip + washers) / kStep - 1e-9);
+  const double length = kStep * std::ceil(least_bolt_length(bolt, grip + washers) / kStep - 1e-9);
   const std::string name = "M" + std::to_string(size);
   add_item(workshop, {"bolt " + name + " x " + rounded_text(1e3 * length, 4), "EN 14592", count, where});
   add_item(workshop, {"nut " + name, "ISO 4032 8", count, where});

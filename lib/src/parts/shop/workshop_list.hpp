@@ -22,7 +22,7 @@ inline constexpr std::array<double, 3> kSupportColour{0.36, 0.42, 0.58};
 int add_part(Workshop& workshop, ShopPart part, const std::array<double, 3>& colour);
 
 /// Takes one piece off the list again: that of a part, or of its equal, at a place of the part.
-void take_back(Workshop& workshop, const ShopPart& part, const Frame& place);
+void take_back(Workshop& workshop, ShopPart part, const Frame& place);
 
 /// Adds a note that stands there once.
 void add_note(std::string note, Workshop& workshop);

@@ -577,7 +577,6 @@ FlatPattern pattern_of(const Development& strip, const std::vector<double>& radi
     fold.to = motion(fold.to);
     pattern.bends.push_back(fold);
   }
-  set_number_place(pattern, bounds(outline));
   return pattern;
 }
 

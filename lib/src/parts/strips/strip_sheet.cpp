@@ -354,7 +354,6 @@ ShopPart sheet_part(const StripJob& job, const SheetCut& cut, const std::vector<
     bend.from = motion(bend.from);
     bend.to = motion(bend.to);
   }
-  set_number_place(pattern, bounds(pattern.region.outline));
 
   ShopPart part;
   part.name = plate.name;

@@ -47,7 +47,6 @@ constexpr double kFoldedVolume = 1e-6;
 void set_own_pattern(ShopPart& part) {
   FlatPattern pattern;
   pattern.region = std::get<Prism>(part.body).region;
-  set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
 }
 
@@ -87,7 +86,6 @@ double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& r
       part.bought_in = job.options.deck.boards.has_value();
       FlatPattern pattern;
       pattern.region.outline = rectangle({}, {row.flat_length, width});
-      set_number_place(pattern, bounds(pattern.region.outline));
       part.pattern = std::move(pattern);
       volume += part.volume * static_cast<double>(part.quantity());
       add_part(workshop, std::move(part), kDeckColour);

@@ -321,7 +321,6 @@ FlatPattern pattern_of(const PipeJob& job, const Gore& gore) {
     pattern.region.holes.push_back({{mean * (first - hole.about.radians()), hole.along}, hole.radius});
   const PlaneBox box = bounds(pattern.region.outline);
   pattern.region = moved(pattern.region, PlaneMotion::turn(0.0, -1.0 * box.low));
-  set_number_place(pattern, bounds(pattern.region.outline));
   return pattern;
 }
 

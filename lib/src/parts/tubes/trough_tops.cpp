@@ -47,7 +47,6 @@ ShopPart level_plate(std::string name, double thickness, PlaneRegion region, con
   ShopPart part = part_named(std::move(name), thickness, options);
   FlatPattern pattern;
   pattern.region = region;
-  set_number_place(pattern, bounds(region.outline));
   part.pattern = std::move(pattern);
   part.body = Prism{std::move(region), thickness};
   return part;
@@ -74,7 +73,6 @@ ShopPart mitred_rim(const TroughTop& trough, std::string name, const TopMeasures
   const PlaneBox box = bounds(outline);
   FlatPattern pattern;
   pattern.region.outline = rectangle({}, {box.width(), rim.width});
-  set_number_place(pattern, bounds(pattern.region.outline));
   part.pattern = std::move(pattern);
   return part;
 }

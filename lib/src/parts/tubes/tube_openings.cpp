@@ -218,7 +218,6 @@ ShopPart tube_lid(const TubeOpening& opening, const TubeGore& tube, const StockM
     pattern.region.holes.push_back({{mean * angle, along}, bolt.radius});
   }
   pattern.rolls.push_back({{0.0, 0.0}, {0.0, length}, radius});
-  set_number_place(pattern, bounds(pattern.region.outline));
   ShopPart part;
   part.name = "lid";
   part.material = material.name;
