@@ -304,7 +304,10 @@ void tells_of_early_hood(const Design& design, const Track& track, const std::st
   const auto problem = search_problem(design, track);
   REQUIRE(problem);
   CHECK_THAT(problem->what, Contains("the search for the hood ended early: ") && Contains(why));
-  CHECK(problem->hint == hint_to_search_on(track.early_hood->interrupted));
+  const bool interrupted = why == "stopped";
+  CHECK(track.early_hood->interrupted == interrupted);
+  CHECK(problem->hint ==
+        (interrupted ? "the same command, left to come to its end" : "a larger --time-budget"));
   const json document = told(design, track);
   CHECK(document["hood"]["not_converged"] == track.early_hood->message);
   if (!track.search) return;
