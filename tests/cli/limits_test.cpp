@@ -260,6 +260,87 @@ TEST_CASE("limits that contradict each other are named with the smallest relaxat
   }
 }
 
+/// @return the lowest exit speed that a message says to try; empty where it says none
+std::string speed_to_try(const std::string& errors) {
+  const std::string before = "exit_speed: {lowest: ";
+  const std::size_t at = errors.find(before);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + before.size();
+  return errors.substr(begin, errors.find('}', begin) - begin);
+}
+
+TEST_CASE("an exit speed that a message says to try is one that a track of the design reaches") {
+  const std::string ends = "{start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}";
+  const std::string deep = "{start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: {lowest: 1 m, highest: 2 m}}}";
+  const std::string open = "{start: {x: 0 m, z: 5 m}, finish: {x: free, z: {lowest: 1 m}}}";
+  struct Case {
+    std::string track, body, objective;
+  };
+  for (const Case& one :
+       {Case{ends, "friction_coefficient: 0.2, entry_speed: 1 m/s", "least_load"},
+        Case{ends, "friction_coefficient: {low: 0.1, nominal: 0.2, high: 0.45}", "least_load"},
+        Case{ends,
+             "kind: rolling, radius: 8 mm, rolling_resistance: 0.02, "
+             "groove_half_angle: 40 deg",
+             "least_load"},
+        Case{ends, "friction_coefficient: 0.1, drag: 0.3 1/m, entry_speed: 1 m/s", "least_load"},
+        Case{ends, "friction_coefficient: 0.1, entry_speed: 30 m/s", "least_load"},
+        Case{deep, "friction_coefficient: 0.2", "least_load"},
+        Case{open, "friction_coefficient: 0.2", "least_length"},
+        Case{open, "friction_coefficient: 0.2, entry_speed: 28 m/s", "least_drop"}}) {
+    INFO(one.track << " " << one.body);
+    const DesignFile file("glissade: 1\ntrack: " + one.track + "\nbody: {" + one.body +
+                          "}\nlimits: {smallest_radius: 200 mm, objective: " + one.objective + "}\n");
+    const Outcome refused = solve(file);
+    CHECK(refused.exit_code == 2);
+    const std::string speed = speed_to_try(refused.errors);
+    INFO(refused.errors);
+    REQUIRE_FALSE(speed.empty());
+    // Whether limits can be met with it; that the fastest track tells at once.
+    const Outcome tried =
+        solve(file, {"--set", "limits.exit_speed.lowest=" + speed, "--set", "limits.objective=travel_time"});
+    INFO(tried.errors);
+    CHECK(tried.exit_code == 0);
+  }
+}
+
+TEST_CASE("a message tells no exit speed to try where a body gains none on the way") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 1 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2, entry_speed: 9 m/s}\nlimits: {objective: least_load}\n");
+  const Outcome outcome = solve(file);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("without a lowest exit_speed above the entry speed") &&
+                                 Contains("Try: a track that falls further") && !Contains("{lowest:"));
+}
+
+TEST_CASE("a least drop between two points is told the design's own finish to set free") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 1 m, z: 5 m}, finish: {x: -9.125 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2}\nlimits: {objective: least_drop}\n");
+  const Outcome outcome = solve(file);
+  CHECK_THAT(outcome.errors,
+             Contains("with a drop that is given, 5 m") && Contains("Try: finish: {x: -9.125 m, z: free}"));
+  CHECK(solve(file, {"--set", "track.finish={x: -9.125 m, z: free}"}).exit_code == 0);
+  const Outcome level = solve(file, {"--set", "track.finish={x: free, z: 0 m}"});
+  CHECK_THAT(level.errors,
+             Contains("finish: {x: free, z: free}, with limits: {exit_speed: {lowest: 27 m/s}}"));
+  CHECK(solve(file, {"--set", "track.finish={x: free, z: free}", "--set",
+                     "limits.exit_speed.lowest=" + speed_to_try(level.errors)})
+            .exit_code == 0);
+}
+
+TEST_CASE("a least load with a finish that is free both ways is told a level of the finish below the start") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 1 m, z: 5 m}, finish: {x: free, z: free}}\n"
+      "body: {friction_coefficient: 0.05}\nlimits: {objective: least_load, exit_speed: {lowest: 9 m/s}, "
+      "smallest_radius: 1 m}\n");
+  const Outcome outcome = solve(file);
+  CHECK_THAT(outcome.errors, Contains("Try: a finish at a level: {x: free, z: -3.257 m}, or"));
+  CHECK(solve(file, {"--set", "track.finish={x: free, z: -3.257 m}", "--set", "limits.objective=travel_time"})
+            .exit_code == 0);
+}
+
 TEST_CASE("a waypoint out of reach is named by itself, not by a distance below none") {
   const DesignFile file(
       "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\nbody: "
