@@ -341,6 +341,18 @@ TEST_CASE("a least load with a finish that is free both ways is told a level of 
             .exit_code == 0);
 }
 
+TEST_CASE("without friction no share of rubbing is told") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0, entry_speed: 1 m/s}\n"
+      "limits: {smallest_radius: 2 m, objective: least_wear}\n");
+  const Outcome none = solve(file);
+  CHECK(none.exit_code == 0);
+  CHECK_THAT(none.output, Contains("s more than the fastest within these limits\n") && !Contains("nan") &&
+                              !Contains("it rubs"));
+  CHECK_THAT(solve(file, {"--set", "body.friction_coefficient=0.1"}).output, Contains("limits; it rubs "));
+}
+
 TEST_CASE("a waypoint out of reach is named by itself, not by a distance below none") {
   const DesignFile file(
       "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\nbody: "
