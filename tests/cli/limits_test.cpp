@@ -353,6 +353,37 @@ TEST_CASE("without friction no share of rubbing is told") {
   CHECK_THAT(solve(file, {"--set", "body.friction_coefficient=0.1"}).output, Contains("limits; it rubs "));
 }
 
+// What a search sets itself, such as that a body that hardly moves lies still, had a price here and no unit.
+TEST_CASE("each active limit of a search is one that the design asks for, with the unit of its row") {
+  const std::string creeping =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}, finish: {x: 12.2 m, z: free}}\n"
+      "body: {friction_coefficient: {low: 0.2506, nominal: 0.358, high: 0.4296}, centre_height: 0.59 m, "
+      "drag: 0.0145 1/m}\n"
+      "limits: {slope_angle: {lowest: 0.305 rad, highest: 1.182 rad}, exit_speed: {lowest: 8.99 m/s}, "
+      "smallest_valley_radius: 14.12 m, objective: least_drop}\n";
+  // It would begin steeper than the feed falls, and vertical.
+  const std::string fed =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 3 m, z: 0 m}}\n"
+      "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 8 mm}\n"
+      "stream: {mass_flow: 100 t/h, bulk_density: 1600 kg/m^3}\nbody: {friction_angle: 20 deg}\n"
+      "feed: {kind: belt, belt_speed: 3.2 m/s, pulley_radius: 400 mm, drop: 150 mm}\n"
+      "limits: {smallest_valley_radius: 1 m}\n";
+  for (const std::string& text : {creeping, fed}) {
+    const json told = json::parse(solve(DesignFile(text), {"--json"}).output);
+    REQUIRE(told["search"]["status"] == "optimal");
+    CHECK_FALSE(told["search"]["active"].empty());
+    for (const json& active : told["search"]["active"]) {
+      INFO(active.dump());
+      const json& rows = told["limits"];
+      const auto row = std::find_if(rows.begin(), rows.end(),
+                                    [&](const json& one) { return one["limit"] == active["limit"]; });
+      REQUIRE(row != rows.end());
+      CHECK(active["unit"] == (*row)["unit"]);
+      CHECK(active["price"] == (*row)["price"]);
+    }
+  }
+}
+
 TEST_CASE("a waypoint out of reach is named by itself, not by a distance below none") {
   const DesignFile file(
       "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\nbody: "
