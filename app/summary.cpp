@@ -92,14 +92,17 @@ std::string comparison_lines(const Design& design, const Track& track) {
   }
   if (const auto& fastest_within = track.fastest_within) {
     const MotionState end = track.motion.at(track.motion.distance());
-    const double less = 100.0 * (1.0 - end.friction_loss / fastest_within->friction_loss);
-    std::string line = rounded_text(time - fastest_within->travel_time, 3) +
-                       " s more than the fastest within these limits; it rubs " +
-                       rounded_text(std::fabs(less), 3) + " % " + (less < 0.0 ? "more" : "less");
-    if (fastest_within->floor_wear && design.objective.kind == ObjectiveKind::least_peak_wear) {
+    std::string line =
+        rounded_text(time - fastest_within->travel_time, 3) + " s more than the fastest within these limits";
+    // Where nothing rubs there is nothing to have a share of.
+    if (fastest_within->friction_loss > 0.0) {
+      const double less = 100.0 * (1.0 - end.friction_loss / fastest_within->friction_loss);
+      line += "; it rubs " + rounded_text(std::fabs(less), 3) + " % " + (less < 0.0 ? "more" : "less");
+    }
+    const double worn = fastest_within->floor_wear.value_or(0.0);
+    if (worn > 0.0 && design.objective.kind == ObjectiveKind::least_peak_wear) {
       const double peak = wear_at_frictions(track).floor.value;
-      line += ",\nand its floor wears " +
-              rounded_text(100.0 * (1.0 - peak / *fastest_within->floor_wear), 3) +
+      line += ",\nand its floor wears " + rounded_text(100.0 * (1.0 - peak / worn), 3) +
               " % less where it wears most";
     }
     add(line);

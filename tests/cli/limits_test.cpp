@@ -260,6 +260,130 @@ TEST_CASE("limits that contradict each other are named with the smallest relaxat
   }
 }
 
+/// @return the lowest exit speed that a message says to try; empty where it says none
+std::string speed_to_try(const std::string& errors) {
+  const std::string before = "exit_speed: {lowest: ";
+  const std::size_t at = errors.find(before);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + before.size();
+  return errors.substr(begin, errors.find('}', begin) - begin);
+}
+
+TEST_CASE("an exit speed that a message says to try is one that a track of the design reaches") {
+  const std::string ends = "{start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}";
+  const std::string deep = "{start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: {lowest: 1 m, highest: 2 m}}}";
+  const std::string open = "{start: {x: 0 m, z: 5 m}, finish: {x: free, z: {lowest: 1 m}}}";
+  struct Case {
+    std::string track, body, objective;
+  };
+  for (const Case& one :
+       {Case{ends, "friction_coefficient: 0.2, entry_speed: 1 m/s", "least_load"},
+        Case{ends, "friction_coefficient: {low: 0.1, nominal: 0.2, high: 0.45}", "least_load"},
+        Case{ends,
+             "kind: rolling, radius: 8 mm, rolling_resistance: 0.02, "
+             "groove_half_angle: 40 deg",
+             "least_load"},
+        Case{ends, "friction_coefficient: 0.1, drag: 0.3 1/m, entry_speed: 1 m/s", "least_load"},
+        Case{ends, "friction_coefficient: 0.1, entry_speed: 30 m/s", "least_load"},
+        Case{deep, "friction_coefficient: 0.2", "least_load"},
+        Case{open, "friction_coefficient: 0.2", "least_length"},
+        Case{open, "friction_coefficient: 0.2, entry_speed: 28 m/s", "least_drop"}}) {
+    INFO(one.track << " " << one.body);
+    const DesignFile file("glissade: 1\ntrack: " + one.track + "\nbody: {" + one.body +
+                          "}\nlimits: {smallest_radius: 200 mm, objective: " + one.objective + "}\n");
+    const Outcome refused = solve(file);
+    CHECK(refused.exit_code == 2);
+    const std::string speed = speed_to_try(refused.errors);
+    INFO(refused.errors);
+    REQUIRE_FALSE(speed.empty());
+    // Whether limits can be met with it; that the fastest track tells at once.
+    const Outcome tried =
+        solve(file, {"--set", "limits.exit_speed.lowest=" + speed, "--set", "limits.objective=travel_time"});
+    INFO(tried.errors);
+    CHECK(tried.exit_code == 0);
+  }
+}
+
+TEST_CASE("a message tells no exit speed to try where a body gains none on the way") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 1 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2, entry_speed: 9 m/s}\nlimits: {objective: least_load}\n");
+  const Outcome outcome = solve(file);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.errors, Contains("without a lowest exit_speed above the entry speed") &&
+                                 Contains("Try: a track that falls further") && !Contains("{lowest:"));
+}
+
+TEST_CASE("a least drop between two points is told the design's own finish to set free") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 1 m, z: 5 m}, finish: {x: -9.125 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.2}\nlimits: {objective: least_drop}\n");
+  const Outcome outcome = solve(file);
+  CHECK_THAT(outcome.errors,
+             Contains("with a drop that is given, 5 m") && Contains("Try: finish: {x: -9.125 m, z: free}"));
+  CHECK(solve(file, {"--set", "track.finish={x: -9.125 m, z: free}"}).exit_code == 0);
+  const Outcome level = solve(file, {"--set", "track.finish={x: free, z: 0 m}"});
+  CHECK_THAT(level.errors,
+             Contains("finish: {x: free, z: free}, with limits: {exit_speed: {lowest: 27 m/s}}"));
+  CHECK(solve(file, {"--set", "track.finish={x: free, z: free}", "--set",
+                     "limits.exit_speed.lowest=" + speed_to_try(level.errors)})
+            .exit_code == 0);
+}
+
+TEST_CASE("a least load with a finish that is free both ways is told a level of the finish below the start") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 1 m, z: 5 m}, finish: {x: free, z: free}}\n"
+      "body: {friction_coefficient: 0.05}\nlimits: {objective: least_load, exit_speed: {lowest: 9 m/s}, "
+      "smallest_radius: 1 m}\n");
+  const Outcome outcome = solve(file);
+  CHECK_THAT(outcome.errors, Contains("Try: a finish at a level: {x: free, z: -3.257 m}, or"));
+  CHECK(solve(file, {"--set", "track.finish={x: free, z: -3.257 m}", "--set", "limits.objective=travel_time"})
+            .exit_code == 0);
+}
+
+TEST_CASE("without friction no share of rubbing is told") {
+  const DesignFile file(
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0, entry_speed: 1 m/s}\n"
+      "limits: {smallest_radius: 2 m, objective: least_wear}\n");
+  const Outcome none = solve(file);
+  CHECK(none.exit_code == 0);
+  CHECK_THAT(none.output, Contains("s more than the fastest within these limits\n") && !Contains("nan") &&
+                              !Contains("it rubs"));
+  CHECK_THAT(solve(file, {"--set", "body.friction_coefficient=0.1"}).output, Contains("limits; it rubs "));
+}
+
+// What a search sets itself, such as that a body that hardly moves lies still, had a price here and no unit.
+TEST_CASE("each active limit of a search is one that the design asks for, with the unit of its row") {
+  const std::string creeping =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}, finish: {x: 12.2 m, z: free}}\n"
+      "body: {friction_coefficient: {low: 0.2506, nominal: 0.358, high: 0.4296}, centre_height: 0.59 m, "
+      "drag: 0.0145 1/m}\n"
+      "limits: {slope_angle: {lowest: 0.305 rad, highest: 1.182 rad}, exit_speed: {lowest: 8.99 m/s}, "
+      "smallest_valley_radius: 14.12 m, objective: least_drop}\n";
+  // It would begin steeper than the feed falls, and vertical.
+  const std::string fed =
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 3 m}, finish: {x: 3 m, z: 0 m}}\n"
+      "cross_section: {kind: u-channel, width: 600 mm, wall_height: 400 mm, thickness: 8 mm}\n"
+      "stream: {mass_flow: 100 t/h, bulk_density: 1600 kg/m^3}\nbody: {friction_angle: 20 deg}\n"
+      "feed: {kind: belt, belt_speed: 3.2 m/s, pulley_radius: 400 mm, drop: 150 mm}\n"
+      "limits: {smallest_valley_radius: 1 m}\n";
+  for (const std::string& text : {creeping, fed}) {
+    const json told = json::parse(solve(DesignFile(text), {"--json"}).output);
+    REQUIRE(told["search"]["status"] == "optimal");
+    CHECK_FALSE(told["search"]["active"].empty());
+    for (const json& active : told["search"]["active"]) {
+      INFO(active.dump());
+      const json& rows = told["limits"];
+      const auto row = std::find_if(rows.begin(), rows.end(),
+                                    [&](const json& one) { return one["limit"] == active["limit"]; });
+      REQUIRE(row != rows.end());
+      CHECK(active["unit"] == (*row)["unit"]);
+      CHECK(active["price"] == (*row)["price"]);
+    }
+  }
+}
+
 TEST_CASE("a waypoint out of reach is named by itself, not by a distance below none") {
   const DesignFile file(
       "glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}, finish: {x: 10 m, z: 0 m}}\nbody: "

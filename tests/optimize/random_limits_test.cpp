@@ -95,13 +95,9 @@ bool asks_for_bends(const OptimizeReport& report) {
 /// from it, in the unit of the objective.
 double kept_back(const OptimizeReport& report) {
   double cost = 0.0;
-  // A body that creeps slower than 1e-6 of free fall's squared speed counts as lying still; ten times that
-  // where it stalled between stations.
-  constexpr double kCreep = 1e-5;
   for (const ActiveLimit& active : report.active) {
     // A track that all but stalls has prices that are told to tens of a hundred: as much as is certain counts.
     const double price = active.price * std::max(0.0, 1.0 - active.price_error);
-    if (active.limit.id == LimitId::arrival) cost += price * kCreep;
     for (const LimitCheck& check : report.checks) {
       if (check.limit == active.limit) cost += price * std::fabs(check.reached - check.value);
     }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -390,20 +391,56 @@ void check_of_stream(const Design& design, Collected& findings) {
   }
 }
 
+bool asks_for_exit_speed(const Design& design) {
+  return design.limits->exit_speed.lowest.value_or(0.0) > design.body.entry_speed;
+}
+
+/// For an end that is free both ways.
+std::string level_to_try(const Design& design) {
+  constexpr int kDigits = 4;
+  const TrackDesign& track = design.track;
+  const double drop = drop_to_ask_for(design);
+  const double height = track.free_start ? track.finish.z + drop : track.start.z - drop;
+  return std::string(track.free_start ? "a start" : "a finish") +
+         " at a level: {x: free, z: " + rounded_text(height, kDigits) + " m}";
+}
+
+/// The same ends, of which the height of one is left open; of one that is free along a level, both.
+std::string free_height_to_try(const Design& design) {
+  constexpr int kDigits = 12;
+  const auto length = [](double value) { return rounded_text(value, kDigits) + " m"; };
+  const TrackDesign& track = design.track;
+  const bool along = track.free_finish == FinishKind::level;
+  std::string text = track.free_start ? "start: {x: " : "finish: {x: ";
+  text += along ? "free" : length(track.finish.x);
+  if (!along && track.finish.y != 0.0) text += ", y: " + length(track.finish.y);
+  text += ", z: free}";
+  if (!along || asks_for_exit_speed(design)) return text;
+  // What is free both ways falls as far as a speed asks for.
+  Design opened = design;
+  opened.track.free_finish = FinishKind::anywhere;
+  opened.track.free_height = {};
+  const std::optional<std::string> speed = exit_speed_to_ask_for(opened);
+  return speed ? text + ", with limits: {exit_speed: {lowest: " + *speed + "}}" : text;
+}
+
 /// The tightest bound at which a speed is still reached needs that speed, and ends that a track cannot flee to.
 void check_least_bound(const Design& design, Collected& findings) {
   const bool load = design.objective.kind == ObjectiveKind::least_load;
   const std::string name = std::string("objective: ") + (load ? "least_load" : "least_curvature_rate");
-  if (!(design.limits->exit_speed.lowest.value_or(0.0) > design.body.entry_speed)) {
+  if (!asks_for_exit_speed(design)) {
+    const std::optional<std::string> speed = exit_speed_to_ask_for(design);
     report(findings, {path("objective"), path("exit_speed")},
            {"", name + ", without a lowest exit_speed above the entry speed",
-            "The least is that at which a given speed is just reached.", "exit_speed: {lowest: 27 m/s}"});
+            "The least is that at which a given speed is just reached.",
+            speed ? "exit_speed: {lowest: " + *speed + "}"
+                  : "a track that falls further, and a lowest exit_speed above the entry speed"});
   }
   if (design.track.free_finish == FinishKind::anywhere) {
     report(findings, {path("objective"), "track"},
            {"", name + ", with an end that is free both ways",
             "A longer and longer track has less and less of it.",
-            "a start at a level: {x: free, z: 47 m}, or objective: least_drop"});
+            level_to_try(design) + ", or objective: least_drop"});
   }
 }
 
@@ -412,11 +449,10 @@ void check_least_bound(const Design& design, Collected& findings) {
 void check_least_drop(const Design& design, Collected& findings) {
   const TrackDesign& track = design.track;
   if (!fixes_drop(track.free_finish) || is_drawn(design.centerline.kind)) return;
-  const char* const free_end = track.free_start ? "start: {x: free, z: free}" : "finish: {x: 5.4 m, z: free}";
   report(
       findings, {path("objective"), "track"},
       {"", "objective: least_drop, with a drop that is given, " + length_text(track.start.z - track.finish.z),
-       "It is the least height between start and finish.", free_end});
+       "It is the least height between start and finish.", free_height_to_try(design)});
 }
 
 void check_objective(const Design& design, Collected& findings) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,12 +90,13 @@ void check_free_both_ways(const Design& design, const char* end, Collected& find
   const bool is_away = !track.free_start &&
                        (!track.free_range.holds(track.start.x) || !track.free_height.holds(track.start.z));
   if (given || is_away) return;
+  const std::optional<std::string> speed = exit_speed_to_ask_for(design);
   report(
       findings, {"limits.exit_speed", std::string("track.") + end, "track.edge", "limits", "track"},
       {"",
        std::string("the ") + end + " is free both ways, and no exit speed above the entry speed is asked for",
        "It is the speed to be reached that says how far the track has to fall.",
-       "limits: {exit_speed: {lowest: 27 m/s}}"});
+       speed ? "limits: {exit_speed: {lowest: " + *speed + "}}" : "bounds between which the track falls"});
 }
 
 /// A start that the search chooses lies nowhere before it is found.

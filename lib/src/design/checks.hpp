@@ -52,6 +52,12 @@ inline void report(Collected& findings, std::vector<std::string> key_paths, Issu
 /// @return "drop 1.08 m over 5.4 m"
 [[nodiscard]] std::string drop_over_run(const TrackDesign& track);
 
+/// @return an exit speed above the entry speed that tracks of the design may well reach, as files write it: "7 m/s"; none where
+///         a straight line gains no speed
+[[nodiscard]] std::optional<std::string> exit_speed_to_ask_for(const Design& design);
+/// @return a drop [m] on which the lowest exit speed of the design, or one that is not asked for, may well be reached
+[[nodiscard]] double drop_to_ask_for(const Design& design);
+
 /// @return the section of the design; none if it has none, or check_cross_section() finds something wrong with it
 [[nodiscard]] std::optional<CrossSection> sound_cross_section(const Design& design);
 

@@ -9,6 +9,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/words.hpp"
+#include "glissade/task/limit_catalogue.hpp"
 
 #include "optimize/conflicts/end_conflict.hpp"
 #include "optimize/conflicts/energy_left.hpp"
@@ -820,6 +821,12 @@ Optimum with_stop_told(Optimum optimum, const std::stop_token& stop) {
   return optimum;
 }
 
+/// What a search sets itself is nobody's to relax: only what the problem asks for has a price.
+void leave_out_own(std::vector<ActiveLimit>& active) {
+  std::erase_if(active,
+                [](const ActiveLimit& one) { return entry_of(one.limit.id).form == LimitForm::of_search; });
+}
+
 /// optimize() of a problem that is sound, by the objective.
 Optimum searched_by_objective(const Problem& problem, const OptimizeOptions& options,
                               const std::stop_token& stop, const Progress& progress) {
@@ -856,7 +863,9 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
   require_valid(options);
   const Problem problem = with_mean_slope_allowed(with_true_changes(given), options.limit_tolerance);
   require_passable_in_order(problem);
-  return with_stop_told(searched_by_objective(problem, options, stop, progress), stop);
+  Optimum optimum = with_stop_told(searched_by_objective(problem, options, stop, progress), stop);
+  leave_out_own(optimum.report.active);
+  return optimum;
 }
 
 }  // namespace glissade

@@ -108,8 +108,9 @@ struct OptimizeReport {
   /// What finer meshes would win, as a share of the objective, rather too much than too little: the residual is that
   /// of one mesh, and knows nothing of it. None where that was not looked at: without limits, or stopped early.
   std::optional<double> finer_mesh_wins;
-  std::vector<LimitCheck> checks;   ///< one for each limit, sampled by the referee ten times finer
-  std::vector<ActiveLimit> active;  ///< by name
+  std::vector<LimitCheck> checks;  ///< one for each limit, sampled by the referee ten times finer
+  std::vector<ActiveLimit>
+      active;  ///< by name; of what the problem asks for, not of what a search sets itself
   /// Of a problem without a track. Where it is not called infeasible: what the closest track breaks, and what
   /// would do; without text.
   Conflict conflict;
