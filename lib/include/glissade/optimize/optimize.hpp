@@ -109,8 +109,8 @@ struct OptimizeReport {
   /// of one mesh, and knows nothing of it. None where that was not looked at: without limits, or stopped early.
   std::optional<double> finer_mesh_wins;
   std::vector<LimitCheck> checks;  ///< one for each limit, sampled by the referee ten times finer
-  std::vector<ActiveLimit>
-      active;  ///< by name; of what the problem asks for, not of what a search sets itself
+  /// By name; of what the problem asks for, not of what a search sets itself.
+  std::vector<ActiveLimit> active;
   /// Of a problem without a track. Where it is not called infeasible: what the closest track breaks, and what
   /// would do; without text.
   Conflict conflict;
