@@ -491,9 +491,9 @@ Found smooth_or_described(const std::vector<Vec2>& points, const std::optional<L
     auto description = describe_in_pieces(points, smooth, places);
     if (description && describes_better(*description, points, smooth, fitter.best_cost(), noise)) {
       const Vec2 start = description->profile.start(points.front());
+      const bool unlikely = description->unlikely > 0.0;
       Found found{{description->profile.spline(), start, 0.0, 0.0, {}}, std::move(description)};
-      if (found.description->unlikely > 0.0 && fitter.leaves_noise())
-        found.beside = fitter.largest_curvature();
+      if (unlikely && fitter.leaves_noise()) found.beside = fitter.largest_curvature();
       return found;
     }
   }

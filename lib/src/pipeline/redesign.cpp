@@ -544,7 +544,7 @@ std::vector<LetterPrice> prices_of(const InRunShape& shape, const TakeOff& take_
     row.value = value;
     row.price = price;
     row.dimension = dimension;
-    if (lies_at(bound, value)) {
+    if (bound && lies_at(bound, value)) {
       row.rule = bound->rule->id;
       row.certainty = bound->rule->certainty;
     }
