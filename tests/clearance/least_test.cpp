@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+namespace least_test {
+
 using namespace glissade;
 using clearance::Approach;
 using clearance::Least;
@@ -276,3 +278,5 @@ TEST_CASE("walls exactly as high as a valley's radius take few looks, and so do 
     }
   }
 }
+
+}  // namespace least_test
