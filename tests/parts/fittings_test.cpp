@@ -246,10 +246,10 @@ TEST_CASE("fittings: covers that no sheet takes in one are pieces side by side, 
 }
 
 TEST_CASE("fittings: what cannot be made is refused with place, value, bound and way out") {
-  SupportOptions high;
-  high.ground = {{0.0, -3.0}};
+  SupportOptions on_high_ground;
+  on_high_ground.ground = {{0.0, -3.0}};
   PlateOptions above;
-  above.supports = high;
+  above.supports = on_high_ground;
   CHECK(refusal(above).find("supports.ground|ground: at ") == 0);
   CHECK(refusal(above).find("a lower ground") != std::string::npos);
   PlateOptions cover;
