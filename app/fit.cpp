@@ -82,8 +82,15 @@ std::string fit_summary(const SpeedSheet& sheet, const SpeedFit& fit,
           "\noff by " + rounded_text(fit.rms, 3) + " m/s in the root of the mean square");
   if (!fit.correlation) return text;
   constexpr double kHardlyApart = 0.9;
+  // Of a value: with less uncertainty it is told well enough, whatever goes with it.
+  constexpr double kHardlyKnown = 0.2;
   std::string correlation = rounded_text(*fit.correlation, 3) + " between friction and drag";
-  if (std::fabs(*fit.correlation) > kHardlyApart) {
+  const auto is_known = [&](double value, const std::optional<double>& uncertainty) {
+    return uncertainty && *uncertainty <= kHardlyKnown * value;
+  };
+  const bool known =
+      is_known(fit.friction, fit.friction_uncertainty) && is_known(fit.drag, fit.drag_uncertainty);
+  if (std::fabs(*fit.correlation) > kHardlyApart && !known) {
     correlation +=
         ": these speeds hardly tell the two apart;\nmore of one and less of the other explain them as well";
   }

@@ -629,6 +629,39 @@ TEST_CASE("fit: speeds that tell nothing apart are told with their file") {
   CHECK_THAT(outcome.errors, Contains("speeds.csv: these speeds do not tell friction and drag apart"));
 }
 
+TEST_CASE(
+    "fit: friction and drag that are well known go together without a word that nothing tells them apart") {
+  const TempDir place;
+  struct Straight {
+    const char* name;
+    int slope_deg;
+    int length;
+    const char* whole;
+    const char* half;
+  };
+  // Friction 0.05 and drag 0.002 1/m, read to a few centimetres a second.
+  std::string speeds = "design,length_m,speed_m_per_s,before_edge_m\n";
+  for (const Straight& one : {Straight{"a", 30, 60, "21.897", "15.957"},
+                              {"b", 20, 80, "19.940", "14.563"},
+                              {"c", 40, 30, "18.401", "13.163"},
+                              {"d", 25, 120, "26.508", "19.901"}}) {
+    put_bytes(place / (std::string(one.name) + ".yaml"),
+              "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}}\nbody: {friction_coefficient: 0.03, drag: "
+              "0.0013 1/m}\n"
+              "centerline: {kind: segments, entry_slope_angle: " +
+                  std::to_string(one.slope_deg) + " deg, segments: [{length: " + std::to_string(one.length) +
+                  " m}]}\n");
+    speeds += std::string(one.name) + ".yaml," + std::to_string(one.length) + "," + one.whole + ",0\n";
+    speeds += std::string(one.name) + ".yaml," + std::to_string(one.length / 2) + "," + one.half + ",0\n";
+  }
+  put_bytes(place / "speeds.csv", speeds);
+  const Outcome outcome = glissade_run({"fit", (place / "speeds.csv").string()});
+  INFO(outcome.output << outcome.errors);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.output,
+             Contains(" between friction and drag") && !Contains("hardly tell the two apart"));
+}
+
 TEST_CASE("what cannot be written into a directory is advised another one by the command's own option") {
   const TempDir place;
   put_bytes(place / "file", "");
