@@ -4,6 +4,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 
 #include "clearance/random_section.hpp"
+#include "clearance/stations.hpp"
 #include "clearance/strip.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_clearance.hpp"
@@ -192,15 +193,7 @@ class Solid {
 };
 
 Least least_of(const ClothoidSpline& track, const Envelope& envelope, const Region& region, int samples) {
-  std::vector<CenterlinePoint> stations;
-  const std::vector<double> breaks = track.breaks();
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    for (int k = 0; k < samples; ++k) {
-      stations.push_back(track.at(breaks[i] + (breaks[i + 1] - breaks[i]) * k / samples));
-    }
-  }
-  stations.push_back(track.at(breaks.back()));
-  const Strip strip(track, envelope, stations);
+  const Strip strip(track, envelope, testing::stations_of(track, samples));
   return strip.least(region, strip.along(region), kAccuracy);
 }
 

@@ -11,6 +11,7 @@
 #include "glissade/solid/sweep.hpp"
 
 #include "clearance/random_section.hpp"
+#include "clearance/stations.hpp"
 #include "support/catch.hpp"
 #include "support/mesh_clearance.hpp"
 #include "support/random.hpp"
@@ -34,21 +35,9 @@ namespace {
 constexpr int kSolids = 150;
 constexpr int kObstacles = 12;
 
-std::vector<CenterlinePoint> stations_of(const Centerline& track, int samples) {
-  std::vector<CenterlinePoint> stations;
-  const std::vector<double> breaks = track.breaks();
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    for (int k = 0; k < samples; ++k) {
-      stations.push_back(track.at(breaks[i] + (breaks[i + 1] - breaks[i]) * k / samples));
-    }
-  }
-  stations.push_back(track.at(breaks.back()));
-  return stations;
-}
-
 Approach closest(const Centerline& track, const Envelope& envelope, const Region& region, int samples = 20,
                  double accuracy = 1e-9) {
-  const Strip strip(track, envelope, stations_of(track, samples));
+  const Strip strip(track, envelope, testing::stations_of(track, samples));
   return strip.least(region, strip.along(region), accuracy).closest;
 }
 

@@ -38,6 +38,14 @@ Workshop marked_workshop() {
   return workshop;
 }
 
+/// The pieces on a sheet, where they lie [mm].
+std::vector<PlaneRegion> regions_on(const NestedSheet& sheet, const Workshop& workshop) {
+  std::vector<PlaneRegion> regions;
+  for (const NestedPiece& piece : sheet.pieces)
+    regions.push_back(scaled(moved(workshop.parts[piece.part].pattern->region, piece.motion), 1000.0));
+  return regions;
+}
+
 }  // namespace
 
 TEST_CASE("a nest holds of each piece what the file of its part holds, on the layers that are asked for") {
@@ -73,9 +81,7 @@ TEST_CASE("a nest holds of each piece what the file of its part holds, on the la
 TEST_CASE("labels of a nest lie inside their piece, and what is not cut is grey in a file of one layer") {
   const Workshop workshop = marked_workshop();
   for (const NestedSheet& sheet : nest(workshop)) {
-    std::vector<PlaneRegion> regions;
-    for (const NestedPiece& piece : sheet.pieces)
-      regions.push_back(scaled(moved(workshop.parts[piece.part].pattern->region, piece.motion), 1000.0));
+    const std::vector<PlaneRegion> regions = regions_on(sheet, workshop);
     const Drawing drawing = nest_drawing(workshop, sheet);
     for (const DrawnPath& drawn : drawing.paths) {
       if (drawing.layers[drawn.layer].name != "LABEL") continue;
@@ -108,9 +114,7 @@ TEST_CASE("labels of a nest lie inside plates of every width with all of their s
   }
   std::size_t labels = 0;
   for (const NestedSheet& sheet : nest(workshop)) {
-    std::vector<PlaneRegion> regions;
-    for (const NestedPiece& piece : sheet.pieces)
-      regions.push_back(scaled(moved(workshop.parts[piece.part].pattern->region, piece.motion), 1000.0));
+    const std::vector<PlaneRegion> regions = regions_on(sheet, workshop);
     const Drawing drawing = nest_drawing(workshop, sheet);
     for (const DrawnPath& drawn : drawing.paths) {
       if (drawing.layers[drawn.layer].name != "LABEL") continue;

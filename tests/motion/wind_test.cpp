@@ -65,6 +65,12 @@ TEST_CASE("wind: below its balance a body comes to rest where it does in closed 
       const double told = 1e-11 + 1e-14 / behind;
       CHECK(motion.stall()->arc_length == Approx(place).epsilon(told));
       CHECK(motion.travel_time() == Approx(time).epsilon(1e-9 + 10.0 * told));
+      // On a track that ends there this friction is that at which the body stalls.
+      if (behind < 1e-4) continue;
+      const auto stalls = stall_friction_angle(track(0.0, {{place, 0.0, 0.0}}), level.body(), kGravity);
+      REQUIRE(stalls);
+      CHECK(stalls->degrees() ==
+            Approx(Friction::from_coefficient(kFriction).angle().degrees()).margin(6e-5));
     }
   }
 }
