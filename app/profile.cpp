@@ -114,10 +114,10 @@ void add_profile(CLI::App& program, Action& action) {
   command.add_option("-d,--directory", options->directory, "Directory for the files [default: out/NAME]")
       ->type_name("DIR");
   command
-      .add_option("--step", options->step,
-                  "Between stations of the coordinate table [default: 1 m; on a track below 20 m or above 2 "
-                  "km a round "
-                  "length that makes some hundred]")
+      .add_option(
+          "--step", options->step,
+          "Between stations of the coordinate table [default: 1 m; on a track below 20 m or above 2 km "
+          "a round length that makes some hundred]")
       ->type_name("LENGTH");
   command
       .add_option(

@@ -411,7 +411,7 @@ bool winds_at_cap(const ScaledProblem& problem, const Found& found) {
 
 /// Whether it is how long tracks are looked for that holds the best one up: where a longer one is better without end, no limit does.
 bool is_held_by_longest(const ScaledProblem& problem, const Found& found) {
-  constexpr double kHolds = 1e-6;  // accuracy: that of a limit
+  constexpr double kHolds = 1e-6;  // accuracy: of a multiplier, in units of the objective a chord
   for (std::size_t k = 0; k < found.active.size(); ++k) {
     const LimitSpec& limit = problem.limits[found.active[k].limit];
     if (limit.name.id == LimitId::not_many_chords_long && found.inequality[k] > kHolds) return true;

@@ -179,8 +179,10 @@ class Motion {
 
   /// @return how far the body came [m]; the length of the centerline if it arrived
   [[nodiscard]] double distance() const noexcept;
-  /// @return time from the start to distance() [s]; +infinity if the body never moves (it stalls at 0) or
-  ///         comes to the finish, without end, where the slope angle is the friction angle (it stalls there)
+  /// @return time from the start to distance() [s]; +infinity if the body never moves (it stalls at 0), or
+  ///         comes to the finish, without end, where the slope angle is the friction angle (it stalls there), or, with a
+  ///         wind from behind, to where that, slope and friction balance: on the last of its way there, below a thousandth
+  ///         of the wind, it is told as standing
   [[nodiscard]] double travel_time() const noexcept;
   /// @return speed at distance() [m/s]
   [[nodiscard]] double exit_speed() const noexcept;

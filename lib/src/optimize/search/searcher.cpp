@@ -38,10 +38,6 @@ double entry_share(const ScaledProblem& problem, double core_length) {
   return (problem.lead_in + 0.5 * problem.entry_speed2) / core_length;
 }
 
-void append(std::vector<GuessCurve> curves, std::vector<GuessCurve>& to) {
-  for (GuessCurve& curve : curves) to.push_back(std::move(curve));
-}
-
 /// Where the track from the first start is doubted: other starts, which may lead to better ones.
 std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::vector<GuessCurve>& curves,
                                      const Found& first, bool got_lost) {
@@ -50,7 +46,10 @@ std::vector<GuessCurve> worth_trying(const ScaledProblem& problem, const std::ve
   const bool counts_speed = is_about_speed(problem);
   if (got_lost || counts_speed) more.assign(curves.begin() + 1, curves.end());
   // A speed is kept even in bends, and there are many ways to bend.
-  if (problem.rides.front().even_speed > 0.0) append(scattered_starts(problem), more);
+  if (problem.rides.front().even_speed > 0.0) {
+    const std::vector<GuessCurve> scattered = scattered_starts(problem);
+    more.insert(more.end(), scattered.begin(), scattered.end());
+  }
   if (!counts_speed && !is_travel_time(problem)) return more;
   if (more.empty() && first.objective > straight_time(problem)) more.assign(curves.begin() + 1, curves.end());
   const std::optional<FlyingStart> flying = flying_start(problem);
