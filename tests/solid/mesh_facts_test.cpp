@@ -80,7 +80,35 @@ TEST_CASE("a solid turned inside out is watertight but not outward") {
   CHECK_FALSE(facts.oriented_outward);
   CHECK_FALSE(facts.valid());
   CHECK(facts.volume == Approx(-1.0));
-  CHECK(contains(facts.faults(), "wrong way"));
+  CHECK(facts.faults() ==
+        std::vector<std::string>{"1 piece whose facets face the wrong way: inside out, and no cavity within "
+                                 "another; at (0 mm, 0 mm, 0 mm)"});
+}
+
+TEST_CASE("pieces that face the wrong way are counted and placed, each kind of them") {
+  const TriangleMesh block = box({0, 0, 0}, {9, 9, 9});
+  const TriangleMesh cavity = flipped(box({1, 1, 1}, {4, 4, 4}));
+  const MeshFacts mixed = measure(together(
+      together(together(block, cavity), together(box({5, 5, 5}, {6, 6, 6}), box({7, 7, 7}, {8, 8, 8}))),
+      flipped(box({500, 0, 0}, {501, 1, 1}))));
+  CHECK_FALSE(mixed.oriented_outward);
+  CHECK(mixed.inside_out_pieces == 1);
+  CHECK(mixed.nested_pieces == 2);
+  CHECK(mixed.faults() == std::vector<std::string>{"1 piece whose facets face the wrong way: inside out, and "
+                                                   "no cavity within another; at (500 m, 0 mm, 0 mm)",
+                                                   "2 pieces within others whose facets face the wrong way: "
+                                                   "a cavity's would face inwards; the first at "
+                                                   "(5 m, 5 m, 5 m)"});
+  // Where pieces intersect nothing is known of what lies within what: only what is inside out is told.
+  const MeshFacts crossed =
+      measure(together(together(block, box({8, 8, 8}, {10, 10, 10})), flipped(box({20, 0, 0}, {21, 1, 1}))));
+  CHECK(crossed.self_intersections > 0);
+  CHECK(crossed.inside_out_pieces == 1);
+  CHECK(crossed.nested_pieces == 0);
+  // An open one has no inside.
+  TriangleMesh open = flipped(unit_cube());
+  open.triangles.pop_back();
+  CHECK(measure(open).inside_out_pieces == 0);
 }
 
 TEST_CASE("a cavity faces its material, a solid within a cavity is one again") {

@@ -1,16 +1,13 @@
 // measure() against exact rational geometry that shares nothing with it, and against CGAL's own mesh
 // functions.
 
-#include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/solid/mesh_facts.hpp"
-#include "glissade/solid/sweep.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shapes.hpp"
 
 #include <array>
-#include <ctime>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -221,23 +218,6 @@ TEST_CASE("a flat, finely cut plate has no self-intersection, one with a fold th
     CHECK((facts.self_intersections > 0) == (slope == 0.0));
     CHECK(facts.self_intersections == cgal_self_intersections(surface_of(mesh)));
   }
-}
-
-TEST_CASE("a turned solid of flat walls is proven in the time of one along an axis") {
-  // Corners of a turned wall lie in its plane to the last digits only. Long thin facets at a common corner, which no
-  // plane between their middles parts, then took exact arithmetic: four times as long as along the axis.
-  const CoulombBrachistochrone track(Endpoints{3.0, 2.0}, Friction::from_coefficient(0.2));
-  const auto seconds = [&](double degrees) {
-    const Solid solid = sweep(track, CrossSection::u_channel(0.4, 0.3, 0.004),
-                              Placement({}, Angle::from_degrees(degrees)), {.tolerance = 1e-8});
-    const std::clock_t start = std::clock();
-    CHECK(measure(solid.mesh).self_intersections == 0);
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  };
-  const double along = seconds(0.0);
-  const double turned = seconds(45.0);
-  INFO(along << " s along the axis, " << turned << " s turned");
-  CHECK(turned < 2.0 * along);
 }
 
 TEST_CASE("solids within and beside each other bound a volume exactly when CGAL says so") {

@@ -320,6 +320,27 @@ Pieces find_pieces(const std::vector<Vec3>& vertices, const std::vector<FacetCor
   return pieces;
 }
 
+/// Expects everything else to be known.
+void measure_facing(const std::vector<Vec3>& vertices, const std::vector<FacetCorners>& facets,
+                    const Pieces& pieces, const std::stop_token& stop, MeshFacts& facts) {
+  if (!facts.closed() || facts.non_manifold_edges > 0) return;
+  // Without knowing inside from outside, at least nothing may be inside out.
+  const bool is_plain =
+      facts.watertight() && facts.self_intersections == 0 && facts.self_intersections_complete;
+  const WrongPieces wrong =
+      is_plain ? wrong_pieces(vertices, facets, pieces, stop) : pieces_inside_out(pieces);
+  const auto corner_of = [&](std::optional<std::uint32_t> piece) -> std::optional<Vec3> {
+    if (!piece) return std::nullopt;
+    const auto found = std::find(pieces.of_facet.begin(), pieces.of_facet.end(), *piece);
+    return vertices[facets[static_cast<std::size_t>(found - pieces.of_facet.begin())].front()];
+  };
+  facts.oriented_outward = wrong.none();
+  facts.inside_out_pieces = wrong.inside_out;
+  facts.nested_pieces = wrong.nested;
+  facts.places.inside_out_piece = corner_of(wrong.first_inside_out);
+  facts.places.nested_piece = corner_of(wrong.first_nested);
+}
+
 /// Expects the self-intersections to be known.
 void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>& facets,
                       const std::stop_token& stop, MeshFacts& facts) {
@@ -348,13 +369,7 @@ void measure_topology(const TriangleMesh& mesh, const std::vector<FacetCorners>&
   facts.components = pieces.volumes.size();
   facts.volume = total.value();
 
-  // Without knowing inside from outside, at least nothing may be inside out.
-  const bool is_plain =
-      facts.watertight() && facts.self_intersections == 0 && facts.self_intersections_complete;
-  const bool all_positive =
-      std::all_of(pieces.volumes.begin(), pieces.volumes.end(), [](double volume) { return volume > 0.0; });
-  facts.oriented_outward = facts.closed() && facts.non_manifold_edges == 0 &&
-                           (is_plain ? bounds_material(mesh.vertices, facets, pieces, stop) : all_positive);
+  measure_facing(mesh.vertices, facets, pieces, stop, facts);
 }
 
 bool has_repeated_vertex(const FacetCorners& facet) {
@@ -442,10 +457,12 @@ std::vector<std::string> MeshFacts::faults() const {
     report(self_intersections, places.self_intersection, "pair of facets that intersect",
            "pairs of facets that intersect");
   }
-  if (closed() && non_manifold_edges == 0 && !oriented_outward) {
-    faults.emplace_back(
-        "facets face the wrong way: a piece is inside out, or lies within another that is no cavity");
-  }
+  report(inside_out_pieces, places.inside_out_piece,
+         "piece whose facets face the wrong way: inside out, and no cavity within another",
+         "pieces whose facets face the wrong way: inside out, and no cavities within others");
+  report(nested_pieces, places.nested_piece,
+         "piece within another whose facets face the wrong way: a cavity's would face inwards",
+         "pieces within others whose facets face the wrong way: a cavity's would face inwards");
   return faults;
 }
 

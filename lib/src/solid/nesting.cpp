@@ -88,25 +88,41 @@ class Winding {
   std::size_t work_ = 0;
 };
 
+void add(std::size_t& count, std::optional<std::uint32_t>& first, std::size_t piece) {
+  ++count;
+  if (!first) first = static_cast<std::uint32_t>(piece);
+}
+
 }  // namespace
 
-bool bounds_material(const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets,
-                     const Pieces& pieces, const std::stop_token& stop) {
-  const bool has_void = std::any_of(pieces.volumes.begin(), pieces.volumes.end(),
-                                    [](double volume) { return !(volume > 0.0); });
-  if (pieces.volumes.size() == 1) return !has_void;
-  if (pieces.volumes.size() > kMostPieces) return !has_void;
+WrongPieces pieces_inside_out(const Pieces& pieces) {
+  WrongPieces wrong;
+  for (std::size_t i = 0; i < pieces.volumes.size(); ++i) {
+    if (!(pieces.volumes[i] > 0.0)) add(wrong.inside_out, wrong.first_inside_out, i);
+  }
+  return wrong;
+}
+
+WrongPieces wrong_pieces(const std::vector<Vec3>& positions, const std::vector<FacetCorners>& facets,
+                         const Pieces& pieces, const std::stop_token& stop) {
+  if (pieces.volumes.size() == 1 || pieces.volumes.size() > kMostPieces) return pieces_inside_out(pieces);
 
   const std::vector<Piece> gathered = gather(positions, facets, pieces);
   Winding winding(positions, facets, gathered);
+  WrongPieces wrong;
   for (std::size_t i = 0; i < gathered.size(); ++i) {
     require_going(stop);
-    const long expected = pieces.volumes[i] > 0.0 ? 0 : 1;
+    const bool faces_outward = pieces.volumes[i] > 0.0;
     const std::optional<long> actual = winding.around(i);
-    if (!actual) return !has_void;
-    if (*actual != expected) return false;
+    if (!actual) return pieces_inside_out(pieces);
+    if (*actual == (faces_outward ? 0 : 1)) continue;
+    if (faces_outward) {
+      add(wrong.nested, wrong.first_nested, i);
+    } else {
+      add(wrong.inside_out, wrong.first_inside_out, i);
+    }
   }
-  return true;
+  return wrong;
 }
 
 }  // namespace glissade::solid

@@ -4,7 +4,9 @@
 
 #include "solid/self_intersections.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -17,14 +19,26 @@ struct Pieces {
   std::vector<double> volumes;  ///< [m^3]
 };
 
-/// Tells whether closed pieces that do not intersect bound material together: a piece of positive volume lies
-/// where there is none, a piece of negative volume (a cavity) lies within material.
+/// Pieces that face the wrong way, of two kinds, and the lowest number of each kind.
+struct WrongPieces {
+  std::size_t inside_out = 0;  ///< face inward and lie within no material
+  std::size_t nested = 0;      ///< face outward and lie within material that is there already
+  std::optional<std::uint32_t> first_inside_out;
+  std::optional<std::uint32_t> first_nested;
+
+  [[nodiscard]] bool none() const { return inside_out == 0 && nested == 0; }
+};
+
+/// Closed pieces that do not intersect bound material together where none of them is wrong: a piece of positive
+/// volume lies where there is none, a piece of negative volume (a cavity) lies within material.
 ///
 /// Winding numbers by solid angle, which are whole numbers up to rounding. The work is bounded: with more
-/// than 5,000 pieces, or 2e8 solid angles to add, only pieces that are all positive count as bounding
-/// material.
-[[nodiscard]] bool bounds_material(const std::vector<Vec3>& positions,
-                                   const std::vector<FacetCorners>& facets, const Pieces& pieces,
-                                   const std::stop_token& stop = {});
+/// than 5,000 pieces, or 2e8 solid angles to add, every piece that is not of positive volume counts as inside out.
+[[nodiscard]] WrongPieces wrong_pieces(const std::vector<Vec3>& positions,
+                                       const std::vector<FacetCorners>& facets, const Pieces& pieces,
+                                       const std::stop_token& stop = {});
+
+/// The same without a look at what lies within what: every piece that is not of positive volume is inside out.
+[[nodiscard]] WrongPieces pieces_inside_out(const Pieces& pieces);
 
 }  // namespace glissade::solid

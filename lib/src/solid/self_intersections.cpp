@@ -78,18 +78,18 @@ class PairTester {
   }
 
   [[nodiscard]] SelfIntersections found(bool complete) const {
-    if (pairs_ == 0) return {.pairs = 0, .complete = complete, .first = {}};
+    if (pairs_ == 0) return {.pairs = 0, .complete = complete, .exact = exact_, .first = {}};
     Vec3 sum;
     for (const std::uint32_t facet : {first_.first, first_.second}) {
       for (const std::uint32_t vertex : facets_[facet]) sum = sum + at(vertex);
     }
-    return {.pairs = pairs_, .complete = complete, .first = (1.0 / 6.0) * sum};
+    return {.pairs = pairs_, .complete = complete, .exact = exact_, .first = (1.0 / 6.0) * sum};
   }
 
  private:
   using FacetPair = std::pair<std::uint32_t, std::uint32_t>;
 
-  [[nodiscard]] bool meet(const FacetCorners& a, const FacetCorners& b) const {
+  [[nodiscard]] bool meet(const FacetCorners& a, const FacetCorners& b) {
     // Corners that both have, moved to the front of copies of both.
     FacetCorners mine = a;
     FacetCorners other = b;
@@ -116,7 +116,7 @@ class PairTester {
   }
 
   /// Two facets with a common edge overlap only if folded flat onto each other.
-  [[nodiscard]] bool meet_beyond_edge(const FacetCorners& a, const FacetCorners& b) const {
+  [[nodiscard]] bool meet_beyond_edge(const FacetCorners& a, const FacetCorners& b) {
     const Vec3 origin = at(a[0]);
     const Vec3 edge = at(a[1]) - origin;
     const Vec3 mine = at(a[2]) - origin;
@@ -126,6 +126,7 @@ class PairTester {
                          std::numeric_limits<double>::min();
     if (dot(cross(edge, mine), cross(edge, other)) < -error) return false;
 
+    ++exact_;
     const Point p = point(a[0]);
     const Point q = point(a[1]);
     const Point r = point(a[2]);
@@ -133,7 +134,7 @@ class PairTester {
     return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
   }
 
-  [[nodiscard]] bool meet_beyond_vertex(const FacetCorners& a, const FacetCorners& b) const {
+  [[nodiscard]] bool meet_beyond_vertex(const FacetCorners& a, const FacetCorners& b) {
     const Vec3 origin = at(a[0]);
     const Vec3 a1 = at(a[1]) - origin;
     const Vec3 a2 = at(a[2]) - origin;
@@ -154,6 +155,7 @@ class PairTester {
       }
     }
 
+    ++exact_;
     const std::array<Point, 3> mine{point(a[0]), point(a[1]), point(a[2])};
     const std::array<Point, 3> other{point(b[0]), point(b[1]), point(b[2])};
     if (lies_beside(other, mine) || lies_beside(mine, other)) return false;
@@ -165,7 +167,7 @@ class PairTester {
                               Kernel::Segment_3(mine[1], mine[2]));
   }
 
-  [[nodiscard]] bool strangers_meet(const FacetCorners& a, const FacetCorners& b) const {
+  [[nodiscard]] bool strangers_meet(const FacetCorners& a, const FacetCorners& b) {
     const Vec3 origin = at(a[0]);
     const std::array<Vec3, 3> mine{Vec3{}, at(a[1]) - origin, at(a[2]) - origin};
     const std::array<Vec3, 3> other{at(b[0]) - origin, at(b[1]) - origin, at(b[2]) - origin};
@@ -186,6 +188,7 @@ class PairTester {
         return false;
       }
     }
+    ++exact_;
     return CGAL::do_intersect(Kernel::Triangle_3(point(a[0]), point(a[1]), point(a[2])),
                               Kernel::Triangle_3(point(b[0]), point(b[1]), point(b[2])));
   }
@@ -204,6 +207,7 @@ class PairTester {
   SelfIntersectionLimits limits_;
   std::size_t tests_ = 0;
   std::size_t pairs_ = 0;
+  std::size_t exact_ = 0;
   FacetPair first_;
 };
 

@@ -21,6 +21,8 @@ namespace glissade::solid {
 struct SelfIntersections {
   std::size_t pairs = 0;
   bool complete = true;  ///< false: the search stopped at a limit, `pairs` is a lower bound
+  std::size_t exact =
+      0;  ///< pairs that no plane of those tried parts for certain: CGAL was asked, which takes longest
   /// Middle of the corners of the pair with the lowest numbers of those found.
   std::optional<Vec3> first;
 };

@@ -21,6 +21,8 @@ struct MeshFaultPlaces {
   std::optional<Vec3> degenerate_facet;     ///< its first corner
   std::optional<Vec3> duplicate_vertex;     ///< the position that two vertices share
   std::optional<Vec3> self_intersection;    ///< middle of the corners of both facets
+  std::optional<Vec3> inside_out_piece;     ///< a corner of it
+  std::optional<Vec3> nested_piece;         ///< a corner of it
 };
 
 /// Everything that is known of a mesh, measured on the mesh alone.
@@ -49,6 +51,8 @@ struct MeshFacts {
   /// cavity) if it lies within the material of others. Where pieces intersect or meet, and beyond 5,000
   /// pieces: every piece encloses positive volume.
   bool oriented_outward = false;
+  std::size_t inside_out_pieces = 0;  ///< pieces that face inward and are no cavity; 0 unless closed
+  std::size_t nested_pieces = 0;  ///< pieces that face outward within the material of others; 0 unless closed
   long long euler_characteristic = 0;  ///< V - E + F; 2 for a sphere-like solid, 0 for a pipe
   double volume = 0.0;         ///< enclosed [m^3], positive where oriented outward; meaningless unless closed
   double area = 0.0;           ///< [m^2]

@@ -304,6 +304,8 @@ Json mesh_json(const MeshFacts& facts) {
   json["non_manifold_edges"] = facts.non_manifold_edges;
   json["non_manifold_vertices"] = facts.non_manifold_vertices;
   json["degenerate_facets"] = facts.degenerate_facets;
+  json["inside_out_pieces"] = facts.inside_out_pieces;
+  json["nested_pieces"] = facts.nested_pieces;
   json["duplicate_vertices"] = facts.duplicate_vertices;
   json["unused_vertices"] = facts.unused_vertices;
   json["euler_characteristic"] = facts.euler_characteristic;
