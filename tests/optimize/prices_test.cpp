@@ -285,6 +285,36 @@ TEST_CASE("of a kink that no finer mesh confirms one price is told, with how sur
   CHECK(active.price == Approx(0.5 * (looser - tighter)).epsilon(share));
 }
 
+TEST_CASE("a price that changes fast with its bound is one price") {
+  // The exit speed is held from both sides, by one friction each: what else binds gives way a long way for a small change.
+  // Told as 6.37e-6 looser and 8.21e-6 tighter, each sure, where re-solves win 7.16e-6 to either side.
+  Problem problem;
+  problem.endpoints = {0.2345, 0.22038367146};
+  problem.finish = {FinishKind::level, Range{0.227696577473, 0.263648668653}, {}};
+  problem.body.friction = Friction::from_coefficient(0.073156);
+  problem.low_friction = Friction::from_coefficient(0.053579);
+  problem.high_friction = Friction::from_coefficient(0.10405);
+  problem.body.entry_speed = 0.21964;
+  problem.body.drag_per_metre = 1.3208;
+  problem.limits.lead_out = 0.0178922866046;
+  problem.limits.speed.highest = 1.636510063;
+  problem.limits.highest_curvature_load = 5.361793277;
+  problem.limits.slope_angle.highest = 49.39854059 * kRightAngle / 90.0;
+  problem.limits.exit_speed.lowest = 1.582656442;
+  problem.limits.highest_curvature_rate = 108.3259527;
+  problem.limits.lowest_slope_margin = 30.35755761 * kRightAngle / 90.0;
+  const OptimizeReport report = optimize(problem).report;
+  REQUIRE(report.status == OptimizeStatus::optimal);
+  const ActiveLimit& active = active_of(report, "highest_curvature_rate");
+  CHECK(!active.tightening_price);
+  constexpr double kStep = 0.1;
+  const double looser = won_by(problem, report, active.limit, active.value, kStep);
+  const double tighter = won_by(problem, report, active.limit, active.value, -kStep);
+  CAPTURE(active.price, active.price_error, looser, tighter);
+  CHECK(looser == Approx(-tighter).epsilon(0.03));
+  CHECK(active.price == Approx(0.5 * (looser - tighter)).epsilon(active.price_error + kPriceAccuracy));
+}
+
 namespace {
 
 /// How many prices of random problems were held against re-solves.

@@ -17,6 +17,9 @@ namespace {
 // A row this close to its bound may begin to bind; by so much bounds are moved, in scales.
 constexpr double kTight = 1e-6;  // accuracy: ten times that of a limit
 constexpr double kMoved = 1e-7;  // accuracy: that of a limit
+// A kink is as wide however little bounds are moved; prices that change fast with a bound are as close as it was moved little.
+constexpr double kMovedLess = 0.1 * kMoved;  // taste
+constexpr double kAsWide = 0.5;              // theory: between one and a tenth
 // Prices this far apart are two, ...
 constexpr double kApart = 0.04;  // accuracy: twice that of a price
 // ... if they lie apart by this share of the greatest multiplier: what costs next to nothing changes fast.
@@ -147,6 +150,13 @@ class MovedPrograms {
   std::optional<BegunProgram> begun_;
 };
 
+/// @param width  between the prices to either side, with bounds moved as usual
+bool is_kink(const MovedPrograms& programs, const LimitName& name, double width) {
+  if (std::isinf(width)) return true;
+  const double closer = programs.carried(name, kMovedLess) - programs.carried(name, -kMovedLess);
+  return !(closer < kAsWide * width);
+}
+
 }  // namespace
 
 std::vector<OneSidedPrice> one_sided_prices(const ScaledProblem& problem, const Found& found) {
@@ -170,7 +180,8 @@ std::vector<OneSidedPrice> one_sided_prices(const ScaledProblem& problem, const 
     if (std::isinf(relaxing) && name.bound != Bound::exactly) continue;
     relaxing = std::max(relaxing, 0.0);
     const bool counts = tightening - relaxing > programs.counts(name);
-    if (counts && relaxing < (1.0 - kApart) * tightening) result.push_back({name, relaxing, tightening});
+    if (!counts || !(relaxing < (1.0 - kApart) * tightening)) continue;
+    if (is_kink(programs, name, tightening - relaxing)) result.push_back({name, relaxing, tightening});
   }
   return result;
 }
