@@ -120,7 +120,8 @@ TEST_CASE(
 TEST_CASE("a distribution reads back from its own text") {
   for (const char* law :
        {"uniform(15deg,19deg)", "normal(17deg,1.5deg)", "truncated-normal(17deg,1.5deg,14deg,20deg)",
-        "lognormal(0.3,0.1)", "lognormal(17deg,0.1)", "triangular(14mm,17mm,21mm)"}) {
+        "lognormal(0.3,0.1)", "lognormal(17deg,0.1)", "triangular(14mm,17mm,21mm)",
+        "uniform(0.001 1/m,0.003 1/m)", "lognormal(0.01 1/m,0.5)", "normal(0.08 1/m^2,0.01 1/m^2)"}) {
     CHECK(Distribution::parse(law, "x").text() == law);
   }
   CHECK(Distribution::parse(" normal( 17 deg , 1.5 deg ) ", "x").text() == "normal(17deg,1.5deg)");

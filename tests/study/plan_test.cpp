@@ -1,6 +1,7 @@
 #include "glissade/study/plan.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/quantity.hpp"
 
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
@@ -86,6 +87,32 @@ TEST_CASE("a column is named by key and unit in letters") {
   CHECK(Input{"body.entry_speed", "km/h"}.column() == "body.entry_speed_km_per_h");
   CHECK(Input{"gravity", ""}.column() == "gravity");
   CHECK(Input{"moisture", "%"}.column() == "moisture_percent");
+}
+
+TEST_CASE("a unit that begins with a digit stays apart from the number, wherever that comes from") {
+  CHECK(values_of(vary("body.drag=0.001 1/m:0.003 1/m:3")) ==
+        std::vector<std::string>{"0.001 1/m", "0.002 1/m", "0.003 1/m"});
+  CHECK(values_of(vary("body.drag=0.001 1/m,0.003 1/m")) ==
+        std::vector<std::string>{"0.001 1/m", "0.003 1/m"});
+  for (const char* law : {"uniform(0.001 1/m,0.003 1/m)", "normal(0.002 1/m,0.0001 1/m)",
+                          "lognormal(0.002 1/m,0.5)", "triangular(0.001 1/m,0.002 1/m,0.003 1/m)"}) {
+    for (const std::string& value :
+         values_of(scatter({"body.drag=" + std::string(law)}, Sampling::sobol, 16, 1))) {
+      INFO(law << ": " << value);
+      const auto quantity = split_quantity(value);
+      REQUIRE(quantity);
+      CHECK(quantity->unit == "1/m");
+      CHECK(quantity->number > 1e-4);
+      CHECK(quantity->number < 0.02);
+      CHECK_NOTHROW(parse_quantity(value, Dimension::per_length, "drag"));
+    }
+  }
+  const TempDir place;
+  const Factor points =
+      read_points(written(place, "body.drag [1/m], body.entry_speed [m/s]\n0.0012,3\n0.0034,4\n"));
+  CHECK(points.at(0) == std::vector<std::string>{"0.0012 1/m", "3m/s"});
+  CHECK(points.at(1) == std::vector<std::string>{"0.0034 1/m", "4m/s"});
+  CHECK(points.inputs[0].column() == "body.drag_per_m");
 }
 
 TEST_CASE("values that are no values are refused with an example") {

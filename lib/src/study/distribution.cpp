@@ -271,7 +271,7 @@ std::string Distribution::text() const {
   std::string text(words_of(kind_).word);
   for (std::size_t index = 0; index < parameters_.size(); ++index) {
     const bool plain = kind_ == DistributionKind::lognormal && index == 1;
-    text += (index == 0 ? "(" : ",") + exact_text(parameters_[index]) + (plain ? "" : unit_);
+    text += (index == 0 ? "(" : ",") + joined_quantity(exact_text(parameters_[index]), plain ? "" : unit_);
   }
   return text + ")";
 }

@@ -150,6 +150,11 @@ std::optional<SplitQuantity> split_quantity(std::string_view text) {
   return quantity;
 }
 
+std::string joined_quantity(std::string number, std::string_view unit) {
+  const bool runs_on = !unit.empty() && unit.front() >= '0' && unit.front() <= '9';
+  return std::move(number) + (runs_on ? " " : "") + std::string(unit);
+}
+
 std::string Input::column() const {
   return unit.empty() ? key : key + "_" + in_letters(unit);
 }
@@ -194,7 +199,7 @@ Factor read_points(const std::filesystem::path& file) {
         throw InputError({table.place(row + 1), "column " + table.headings[column] + " is empty",
                           "A point has a value for every key.", ""});
       }
-      values[column] += units[column];
+      values[column] = joined_quantity(std::move(values[column]), units[column]);
     }
     factor.values.push_back(std::move(values));
   }
@@ -258,13 +263,14 @@ double Grid::at(std::uint64_t index) const {
 std::vector<std::string> Factor::at(std::uint64_t setting) const {
   if (setting >= size)
     throw InternalError({"", "a factor has no setting " + std::to_string(setting), "", ""});
-  if (grid) return {exact_text(grid->at(setting)) + inputs.front().unit};
+  if (grid) return {joined_quantity(exact_text(grid->at(setting)), inputs.front().unit)};
   if (distributions.empty()) return values.at(setting);
   const std::vector<double> shares = cube.at(setting);
   std::vector<std::string> texts;
   texts.reserve(shares.size());
   for (std::size_t index = 0; index < shares.size(); ++index) {
-    texts.push_back(exact_text(distributions[index].quantile(shares[index])) + distributions[index].unit());
+    const Distribution& distribution = distributions[index];
+    texts.push_back(joined_quantity(exact_text(distribution.quantile(shares[index])), distribution.unit()));
   }
   return texts;
 }

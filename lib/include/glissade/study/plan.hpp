@@ -108,4 +108,7 @@ struct SplitQuantity {
 /// @return none if the text does not begin with a finite decimal number
 [[nodiscard]] std::optional<SplitQuantity> split_quantity(std::string_view text);
 
+/// Puts them together again, so that they are told apart: "0.31m", but "0.01 1/m".
+[[nodiscard]] std::string joined_quantity(std::string number, std::string_view unit);
+
 }  // namespace glissade::study
