@@ -10,6 +10,8 @@
 #include <fstream>
 #include <string>
 
+#include <unistd.h>
+
 using namespace glissade;
 using namespace glissade::test;
 using Catch::Matchers::Contains;
@@ -30,6 +32,23 @@ TEST_CASE("a file that is missing, a directory or too large is refused by its na
   CHECK_THROWS_WITH(read_design("no/such.yaml"),
                     StartsWith("no/such.yaml: cannot read the design file: no such file"));
   CHECK_THROWS_WITH(read_design(designs_path()), Contains("it is a directory"));
+}
+
+TEST_CASE("a path that cannot be followed is not told to be without a file") {
+  const TempDir scratch;
+  std::filesystem::create_symlink("around.yaml", scratch / "around.yaml");
+  CHECK_THROWS_WITH(read_design(scratch / "around.yaml"),
+                    Contains("cannot read the design file: Too many levels of symbolic links") &&
+                        Contains("Try: its path, and the permissions of the directories in it"));
+  CHECK_THROWS_WITH(read_design(scratch / std::string(300, 'a')), Contains("File name too long"));
+  // Permissions do not stop root.
+  if (::geteuid() == 0) return;
+  std::filesystem::create_directory(scratch / "closed");
+  std::ofstream(scratch / "closed" / "d.yaml").put('a');
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::none);
+  CHECK_THROWS_WITH(read_design(scratch / "closed" / "d.yaml"),
+                    Contains("cannot read the design file: Permission denied"));
+  std::filesystem::permissions(scratch / "closed", std::filesystem::perms::owner_all);
 }
 
 TEST_CASE("a file of 100 MB is refused by its size, unread") {

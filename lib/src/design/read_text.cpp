@@ -19,6 +19,10 @@ std::string read_text(const std::filesystem::path& file, std::string_view what, 
   };
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
+  // What lies in a directory that may not be entered may well be there.
+  if (status.type() == std::filesystem::file_type::none) {
+    throw_unreadable(error.message(), "its path, and the permissions of the directories in it");
+  }
   if (!std::filesystem::exists(status)) {
     throw_unreadable("no such file", "its path; " + std::string(maker));
   }
