@@ -4,6 +4,7 @@
 
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/optimize/optimize.hpp"
 
 #include "optimize/problem/scaled_problem.hpp"
 #include "optimize/random_limits.hpp"
@@ -58,5 +59,28 @@ TEST_CASE("a straight line takes as long as a body that is ridden along it") {
     const double time = straight_time(problem) * problem.time;
     CHECK(std::isfinite(time) == ride.arrived());
     if (ride.arrived()) CHECK(std::fabs(time / ride.travel_time() - 1.0) <= 1e-9);
+  }
+}
+
+TEST_CASE("a longer straight at the start never makes the finish faster by another track") {
+  // With one of these lengths the search ended in a track that begins uphill and all but stops: 14.135 m/s in 8 s.
+  double before = HUGE_VAL;
+  for (const double lead : {5.0627, 5.0639136, 5.0649}) {
+    Problem problem;
+    problem.endpoints = {50.0, 18.4732106712};
+    problem.body.friction = Friction::from_coefficient(0.18117);
+    problem.body.drag_per_metre = 0.0013571;
+    problem.body.entry_speed = 5.3713;
+    problem.objective.kind = ObjectiveKind::exit_speed;
+    problem.limits.waypoints = {{25.8759677312, 12.41052238704}};
+    problem.limits.lead_in = lead;
+    problem.limits.lead_out = 2.14600696834;
+    problem.limits.entry_slope_angle.highest = Angle::from_degrees(32.3385).radians();
+    problem.limits.exit_slope_angle.lowest = Angle::from_degrees(11.8847).radians();
+    const OptimizeReport report = optimize(problem).report;
+    CAPTURE(lead, report.brief());
+    CHECK(report.exit_speed > 14.335);
+    CHECK(report.exit_speed < before * (1.0 + 1e-4));
+    before = report.exit_speed;
   }
 }

@@ -83,6 +83,21 @@ bool is_better(const Candidate& candidate, const std::optional<Candidate>& best)
   return candidate.kept && candidate.found->objective < best->found->objective;
 }
 
+/// Whether a body that was fast is all but at rest somewhere: next to that a track is an optimum among those that keep it moving,
+/// and others, on which it stays fast, lie far away.
+bool nearly_stops(const Found& found) {
+  constexpr double kOfSpeed = 0.05;  // taste: of the highest speed before
+  const State state = found.rows->state(found.z, false);
+  return std::any_of(state.flows.begin(), state.flows.end(), [](const Flow& flow) {
+    double highest = 0.0;
+    for (const double v : flow.v) {
+      if (v < kOfSpeed * kOfSpeed * highest) return true;
+      highest = std::max(highest, v);
+    }
+    return false;
+  });
+}
+
 /// One problem's search, from its own starts and from tracks that keep its limits.
 class Course {
  public:
@@ -242,7 +257,8 @@ class Course {
       is_hooked = best_->found->objective < known && is_optimum();
     }
     if (!kept() || stopped_) return;
-    if (!is_hooked && (by_footholds || !is_optimum())) {
+    const bool is_doubted = is_about_exit_speed() && nearly_stops(*best_->found);
+    if (!is_hooked && (by_footholds || !is_optimum() || is_doubted)) {
       best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
                            : searcher_.from_scattered(*std::move(best_));
       if (!best_->stopped && (by_footholds || !is_optimum()))
@@ -283,6 +299,10 @@ class Course {
 
  private:
   static constexpr int kFarRounds = 10;  // budget
+
+  [[nodiscard]] bool is_about_exit_speed() const {
+    return problem_.objective.kind == ObjectiveKind::exit_speed;
+  }
 
   [[nodiscard]] static bool is_on_limits(const Searcher::Stage& stage) {
     constexpr double kNearly = 1e-5;  // accuracy: a hundred times that of a limit
