@@ -147,6 +147,44 @@ TEST_CASE("marks: numbers keep clear of holes and cutouts at random, and fit whe
   CHECK_FALSE(pattern.number_at);
 }
 
+TEST_CASE("marks: a number stands beside bends where there is room, across them where there is none") {
+  Random random = seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int trial = 0; trial < 100; ++trial) {
+    const double width = random.between(0.3, 1.0);
+    const double height = random.between(0.15, 0.4);
+    FlatPattern pattern;
+    pattern.region.outline = rectangle({}, {width, height});
+    const bool along = trial % 2 == 0;
+    // Two bends leave a strip of a third, or more, of the sheet.
+    for (int k = 0; k < 2; ++k) {
+      const double at = random.between(0.1, 0.9) * (along ? height : width);
+      pattern.bends.push_back({along ? Vec2{0.0, at} : Vec2{at, 0.0},
+                               along ? Vec2{width, at} : Vec2{at, height}, Angle::from_degrees(90.0), 2e-3,
+                               true});
+    }
+    parts::set_number_place(pattern, 44);
+    REQUIRE(pattern.number_at);
+    const PlaneBox box{*pattern.number_at,
+                       *pattern.number_at + pattern.number_height * Vec2{2.0 * 0.77, 1.0}};
+    CAPTURE(trial, width, height, box.low.x, box.low.y);
+    for (const BendLine& bend : pattern.bends) {
+      const double from = along ? bend.from.y : bend.from.x;
+      const double low = along ? box.low.y : box.low.x;
+      const double high = along ? box.high.y : box.high.x;
+      const double gap = std::max(low - from, from - high);
+      // A right angle of 2 mm takes 3.1 mm of the sheet.
+      CHECK(gap >= 0.25 * 3.14159 * 2e-3);
+    }
+  }
+  FlatPattern narrow;
+  narrow.region.outline = rectangle({}, {0.3, 0.05});
+  for (int k = 0; k < 30; ++k)
+    narrow.bends.push_back({{0.01 * k, 0.0}, {0.01 * k, 0.05}, Angle::from_degrees(5.0), 20e-3, true});
+  parts::set_number_place(narrow, 44);
+  CHECK(narrow.number_at);
+}
+
 TEST_CASE("marks: a line is clipped to its longest stretch on the plate; one along an edge or off it stays") {
   FlatPattern pattern;
   pattern.region.outline = {{{{0.0, 0.0}, 0.0}, {{1.0, -0.1}, 0.0}, {{1.0, 0.5}, 0.0}, {{0.0, 0.4}, 0.0}},

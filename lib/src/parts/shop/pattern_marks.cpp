@@ -34,6 +34,16 @@ bool lies_on(const PlaneRegion& region, const PlaneBox& box, double clear) {
   });
 }
 
+/// Whether a sheet is bent within a box, or as near to it.
+bool is_bent(const std::vector<BendLine>& bends, const PlaneBox& box, double clear) {
+  const ArcPath edges = rectangle(box.low, box.high);
+  return std::any_of(bends.begin(), bends.end(), [&](const BendLine& bend) {
+    const ArcPath line{{{bend.from, 0.0}, {bend.to, 0.0}}};
+    const double half_bent = 0.5 * bend.angle.radians() * bend.inner_radius;
+    return contains(edges, 0.5 * (bend.from + bend.to)) || distance(line, edges) < half_bent + clear;
+  });
+}
+
 bool on_plate(const PlaneRegion& region, Vec2 point) {
   return contains(region.outline, point) &&
          std::none_of(region.cutouts.begin(), region.cutouts.end(),
@@ -42,20 +52,34 @@ bool on_plate(const PlaneRegion& region, Vec2 point) {
                       [&](const Circle& hole) { return norm(point - hole.centre) < hole.radius; });
 }
 
-/// The middles of what uprights through a plate have of it, outwards from the middle one.
-std::vector<Vec2> middles_of(const PlaneRegion& region) {
+/// Whether a bend line crosses an upright between two heights.
+bool is_bent_between(const std::vector<BendLine>& bends, double x, double low, double high) {
+  return std::any_of(bends.begin(), bends.end(), [&](const BendLine& bend) {
+    const Vec2 way = bend.to - bend.from;
+    const double share = way.x == 0.0 ? -1.0 : (x - bend.from.x) / way.x;
+    const double y = bend.from.y + share * way.y;
+    return share >= 0.0 && share <= 1.0 && y > low && y <= high;
+  });
+}
+
+/// The middles of what uprights through a plate have of it between bends, outwards from the middle one.
+std::vector<Vec2> middles_of(const PlaneRegion& region, const std::vector<BendLine>& bends) {
   constexpr int kColumns = 24;  // budget, on either side of the middle
   constexpr int kSteps = 64;    // budget, up an upright
   const PlaneBox box = bounds(region.outline);
   std::vector<Vec2> places;
+  const double step = box.height() / kSteps;
   const auto add_column = [&](double x) {
     int first = -1;
     for (int i = 0; i <= kSteps; ++i) {
-      const bool inside = i < kSteps && on_plate(region, {x, box.low.y + box.height() * (i + 0.5) / kSteps});
-      if (inside && first < 0) first = i;
-      if (inside || first < 0) continue;
-      places.push_back({x, box.low.y + box.height() * (first + i) / (2.0 * kSteps)});
-      first = -1;
+      const double y = box.low.y + (i + 0.5) * step;
+      const bool inside = i < kSteps && on_plate(region, {x, y});
+      const bool ends = first >= 0 && (!inside || is_bent_between(bends, x, y - step, y));
+      if (ends) places.push_back({x, box.low.y + 0.5 * (first + i) * step});
+      if (!inside)
+        first = -1;
+      else if (first < 0 || ends)
+        first = i;
     }
   };
   const double middle = 0.5 * (box.low.x + box.high.x);
@@ -130,21 +154,27 @@ void set_number_place(FlatPattern& pattern, int number) {
   if (std::min(box.width(), box.height()) < kLeastPlate) return;
   const double digits = std::max(2.0, static_cast<double>(std::to_string(number).size()));
   std::vector<Vec2> places;
-  const auto fits = [&](Vec2 corner, double height) {
+  const auto fits = [&](Vec2 corner, double height, bool on_bends) {
     const PlaneBox around{corner, corner + Vec2{digits * kDigit * height, height}};
     if (!lies_on(pattern.region, around, kClear * height)) return false;
+    if (!on_bends && is_bent(pattern.bends, around, kClear * height)) return false;
     pattern.number_at = corner;
     pattern.number_height = height;
     return true;
   };
-  for (const double height : kNumberHeights) {
+  const auto is_placed = [&](double height, bool on_bends) {
     // Beside the outline's middle, where bands are widest.
-    const Vec2 usual = 0.5 * (box.low + box.high) - height * Vec2{1.5, 0.5};
-    if (fits(usual, height)) return;
-    if (places.empty()) places = middles_of(pattern.region);
+    if (fits(0.5 * (box.low + box.high) - height * Vec2{1.5, 0.5}, height, on_bends)) return true;
+    if (places.empty()) places = middles_of(pattern.region, pattern.bends);
     const Vec2 half = 0.5 * height * Vec2{digits * kDigit, 1.0};
-    for (const Vec2 place : places) {
-      if (fits(place - half, height)) return;
+    return std::any_of(places.begin(), places.end(),
+                       [&](Vec2 place) { return fits(place - half, height, on_bends); });
+  };
+  // A number across a bend can be read, too, if the sheet is bent all over.
+  for (const bool on_bends : {false, true}) {
+    if (on_bends && pattern.bends.empty()) return;
+    for (const double height : kNumberHeights) {
+      if (is_placed(height, on_bends)) return;
     }
   }
 }

@@ -7,8 +7,8 @@ namespace glissade::parts {
 /// What is drawn on a flat pattern beside its cuts: on the plate, once that is finished.
 
 /// Says where a part's number may stand: level, as high as it fits, at most 20 mm, its box wholly on the plate, clear of
-/// edges, cutouts and holes by a tenth of its height; beside the outline's middle where there is room. None where it
-/// does not fit, 10 mm high, and on plates narrower than 40 mm.
+/// edges, cutouts, holes and bends by a tenth of its height; beside the outline's middle where there is room. Across bends where it
+/// fits nowhere else; none where it does not fit at all, 10 mm high, and on plates narrower than 40 mm.
 /// @param number  of the part; >= 1
 void set_number_place(FlatPattern& pattern, int number);
 
