@@ -783,6 +783,30 @@ TEST_CASE("the highest exit speed to a free height is at its bound, however far,
   }
 }
 
+TEST_CASE("where a body can fly all the way the least load is next to none, and told at once") {
+  // Tighter and tighter bounds were looked at, until time was over.
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 8; ++i) {
+    Problem problem;
+    problem.endpoints = {random.between(2.0, 50.0), random.between(1.0, 8.0)};
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.3));
+    problem.body.entry_speed = 30.0;
+    // A body that flies leaves with all that the drop gives.
+    const double flown = std::sqrt(900.0 + 2.0 * problem.gravity * problem.endpoints.drop);
+    problem.limits.exit_speed.lowest = 0.9999 * flown;
+    problem.objective.kind = ObjectiveKind::least_load;
+    CAPTURE(i, problem.endpoints.run, problem.endpoints.drop, problem.body.friction.coefficient());
+    const Optimum found = solved(problem);
+    const Motion ride(found.centerline, problem.body, problem.gravity);
+    CHECK(ride.highest_load().normal_load < 1e-5 * problem.gravity);
+    CHECK(found.report.exit_speed == Approx(flown).epsilon(1e-6));
+    CHECK_THAT(found.report.message,
+               Catch::Matchers::Contains("on the path of a body that flies, which carries nothing"));
+    CHECK(found.report.evaluations < 20'000);
+  }
+}
+
 TEST_CASE("prices of a ramp are what its drop changes by") {
   Problem problem = task(0.05, 0.0, 10.0, ObjectiveKind::least_drop);
   problem.limits.lead_out = 6.0;

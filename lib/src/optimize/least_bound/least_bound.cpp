@@ -471,10 +471,13 @@ class LeastBound {
     const double length = track->length();
     return 1e4 / (length * length);
   }
-  /// A rate of curvature by which a track is an arc, or a straight line: its slope is off one's by less than a billionth.
+  /// A rate of curvature by which a track is an arc, or a straight line: its slope is off one's by less than a billionth. A load of
+  /// less than a hundred thousandth of the weight.
   [[nodiscard]] bool is_as_good_as_none(double bound) const {
     constexpr double kTurned = 1e-9;  // accuracy: a hundredth of that of a limit [rad]
-    if (name_.id == LimitId::highest_normal_load) return false;
+    constexpr double kOfWeight =
+        1e-5;  // accuracy: ten times as much as searches press a body that flies against its track
+    if (name_.id == LimitId::highest_normal_load) return bound < kOfWeight * asked_.gravity;
     const double length = best_.centerline->length();
     return bound * length * length < kTurned;
   }
@@ -527,12 +530,15 @@ class LeastBound {
       report.status = OptimizeStatus::feasible_not_converged;
       report.message = "every limit holds, but the tightest bound was not found: " + open_text();
     } else if (report.status == OptimizeStatus::optimal) {
-      report.message = is_as_good_as_none(bracket_.loose)
-                           ? "every limit holds on a track of one curvature, which has none that could change"
-                       : left_beside_ ? "every limit holds, and no neighbouring track keeps a tighter bound"
-                       : bracket_.why == Verdict::kept_by_none
-                           ? "every limit holds, and no track keeps a tighter bound"
-                           : "every limit holds, and a tighter bound keeps the exit speed from being reached";
+      report.message =
+          is_as_good_as_none(bracket_.loose)
+              ? (name_.id == LimitId::highest_normal_load
+                     ? "every limit holds on the path of a body that flies, which carries nothing"
+                     : "every limit holds on a track of one curvature, which has none that could change")
+          : left_beside_ ? "every limit holds, and no neighbouring track keeps a tighter bound"
+          : bracket_.why == Verdict::kept_by_none
+              ? "every limit holds, and no track keeps a tighter bound"
+              : "every limit holds, and a tighter bound keeps the exit speed from being reached";
     }
     return outlay_.told(std::move(best_), asked_.objective);
   }
