@@ -55,22 +55,27 @@ std::string with_uncertainty(double value, const std::optional<double>& uncertai
   return text;
 }
 
-std::string fit_summary(const SpeedSheet& sheet, const SpeedFit& fit,
+std::string resistance_text(const CommonResistance& designed) {
+  const auto text = [](const std::optional<double>& value, const char* unit) {
+    return value ? rounded_text(*value, 4) + unit : std::string("of each design");
+  };
+  return "friction " + text(designed.friction, "") + ", drag " + text(designed.drag, " 1/m");
+}
+
+std::string fit_summary(const std::vector<SpeedReading>& readings, const SpeedFit& fit,
                         const std::vector<SpeedResidual>& as_designed, const SpeedFitOptions& held) {
   Table table({"", "length [m]", "measured [m/s]", "design [m/s]", "off by", "fitted [m/s]", "off by"});
   const auto speed = [](double value) { return fixed_text(value, 2); };
   const auto excess = [&](double value) { return (value < 0.0 ? "" : "+") + fixed_text(value, 2); };
-  for (std::size_t i = 0; i < sheet.readings.size(); ++i) {
-    const SpeedReading& reading = sheet.readings[i];
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const SpeedReading& reading = readings[i];
     table.add({reading.name, fixed_text(reading.track->length() - reading.from_start, 2),
                speed(reading.speed), speed(as_designed[i].computed), excess(as_designed[i].excess),
                speed(fit.residuals[i].computed), excess(fit.residuals[i].excess)});
   }
-  const Body& body = sheet.body;
   std::string text = table.text() + "\n";
   text +=
-      labelled("Design", "friction " + rounded_text(body.friction.coefficient(), 4) + ", drag " +
-                             rounded_text(body.drag_per_metre, 4) + " 1/m: off by " +
+      labelled("Design", resistance_text(common_resistance(readings)) + ": off by " +
                              rounded_text(rms_of(as_designed), 3) + " m/s in the root of the mean square");
   text += labelled(
       "Fitted",
@@ -105,9 +110,10 @@ std::vector<Issue> of_file(std::vector<Issue> issues, const std::string& file) {
   return issues;
 }
 
-SpeedFit fitted_to(const SpeedSheet& sheet, const SpeedFitOptions& held, const std::string& file) {
+SpeedFit fitted_to(const std::vector<SpeedReading>& readings, const SpeedFitOptions& held,
+                   const std::string& file) {
   try {
-    return fit_speeds(sheet.readings, sheet.body, held, sheet.gravity);
+    return fit_speeds(readings, held);
   } catch (const InputError& error) {
     throw InputError(of_file(error.issues(), file));
   } catch (const ConvergenceError& error) {
@@ -118,7 +124,7 @@ SpeedFit fitted_to(const SpeedSheet& sheet, const SpeedFitOptions& held, const s
 ExitCode fit(const FitArguments& options) {
   std::optional<std::filesystem::path> design;
   if (!options.design.empty()) design = options.design;
-  const SpeedSheet sheet = read_speeds(options.speeds, design);
+  const std::vector<SpeedReading> readings = read_speeds(options.speeds, design);
   SpeedFitOptions held;
   if (!options.friction.empty()) {
     held.friction = option_value(options.friction, Dimension::number, "--friction-coefficient");
@@ -129,9 +135,10 @@ ExitCode fit(const FitArguments& options) {
     if (value && *value < 0.0)
       throw InputError({name, rounded_text(*value, 4) + " is negative", "", "0 or more"});
   }
-  const SpeedFit fitted = fitted_to(sheet, held, options.speeds);
-  const std::vector<SpeedResidual> as_designed = speed_residuals(sheet.readings, sheet.body, sheet.gravity);
-  print(options.json ? fit_json(sheet, fitted, as_designed) : fit_summary(sheet, fitted, as_designed, held));
+  const SpeedFit fitted = fitted_to(readings, held, options.speeds);
+  const std::vector<SpeedResidual> as_designed = speed_residuals(readings);
+  print(options.json ? fit_json(readings, fitted, as_designed)
+                     : fit_summary(readings, fitted, as_designed, held));
   return ExitCode::done;
 }
 

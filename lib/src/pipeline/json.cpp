@@ -463,7 +463,7 @@ std::string redesign_json(const Design& design, const Redesign& found) {
   return document_text(json);
 }
 
-std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
+std::string fit_json(const std::vector<SpeedReading>& readings, const SpeedFit& fit,
                      const std::vector<SpeedResidual>& as_designed) {
   Json json{{"glissade", version()}};
   json["friction_coefficient"] = fit.friction;
@@ -472,12 +472,13 @@ std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
   json["drag_uncertainty_per_m"] = number(fit.drag_uncertainty);
   json["correlation"] = number(fit.correlation);
   json["rms_m_per_s"] = fit.rms;
-  json["design_friction_coefficient"] = sheet.body.friction.coefficient();
-  json["design_drag_per_m"] = sheet.body.drag_per_metre;
+  const CommonResistance designed = common_resistance(readings);
+  json["design_friction_coefficient"] = number(designed.friction);
+  json["design_drag_per_m"] = number(designed.drag);
   json["design_rms_m_per_s"] = rms_of(as_designed);
   json["speeds"] = Json::array();
-  for (std::size_t i = 0; i < sheet.readings.size(); ++i) {
-    const SpeedReading& reading = sheet.readings[i];
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const SpeedReading& reading = readings[i];
     json["speeds"].push_back({{"name", reading.name},
                               {"distance_to_edge_m", reading.track->length() - reading.from_start},
                               {"before_edge_m", reading.track->length() - reading.place},

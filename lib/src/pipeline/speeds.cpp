@@ -40,21 +40,14 @@ class Reader {
     require_either("speed_km_h", "speed_m_per_s");
   }
 
-  SpeedSheet read() {
-    SpeedSheet sheet;
-    for (std::size_t row = 0; row < columns_.rows(); ++row) {
-      const Hill& hill = hill_of(row);
-      if (sheet.readings.empty()) {
-        sheet.body = body_of(hill.design);
-        sheet.gravity = hill.design.gravity;
-      }
-      sheet.readings.push_back(reading_of(row, hill));
-    }
-    if (sheet.readings.empty()) {
+  std::vector<SpeedReading> read() {
+    std::vector<SpeedReading> readings;
+    for (std::size_t row = 0; row < columns_.rows(); ++row) readings.push_back(reading_of(row, hill_of(row)));
+    if (readings.empty()) {
       throw FileError({columns_.file().string(), "there are no speeds in the file",
                        "The first line names the columns, each other one is a speed.", "a line a speed"});
     }
-    return sheet;
+    return readings;
   }
 
  private:
@@ -118,6 +111,8 @@ class Reader {
     SpeedReading reading;
     reading.name = hill.design.name.empty() ? columns_.place(row) : hill.design.name;
     reading.track = hill.track;
+    reading.body = body_of(hill.design);
+    reading.gravity = hill.design.gravity;
     reading.from_start = start_of(row, hill);
     double before_edge =
         hill.design.gates ? hill.design.gates->measuring_place : GatesDesign{}.measuring_place;
@@ -159,8 +154,8 @@ class Reader {
 
 }  // namespace
 
-SpeedSheet read_speeds(const std::filesystem::path& file,
-                       const std::optional<std::filesystem::path>& design) {
+std::vector<SpeedReading> read_speeds(const std::filesystem::path& file,
+                                      const std::optional<std::filesystem::path>& design) {
   return Reader(file, design).read();
 }
 

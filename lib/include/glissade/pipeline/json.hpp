@@ -49,8 +49,8 @@ struct ComparedTrack {
                                         const std::vector<ShopCheck>* shop = nullptr);
 
 /// Friction and drag fitted to measured speeds.
-/// @param as_designed  the same speeds with the friction and drag of the sheet's body
-[[nodiscard]] std::string fit_json(const SpeedSheet& sheet, const SpeedFit& fit,
+/// @param as_designed  the same speeds with the friction and drag of their own designs
+[[nodiscard]] std::string fit_json(const std::vector<SpeedReading>& readings, const SpeedFit& fit,
                                    const std::vector<SpeedResidual>& as_designed);
 
 /// An in-run beside what the rules would allow.

@@ -9,21 +9,14 @@
 
 namespace glissade {
 
-/// Measured speeds with the tracks that they are of.
-struct SpeedSheet {
-  std::vector<SpeedReading> readings;
-  Body body;                         ///< of the first design
-  double gravity = kDefaultGravity;  ///< of the first design
-};
-
-/// Reads measured speeds from a CSV file (docs/ski-jumps.md): columns `design` (a design file beside it; may be left out
+/// Reads measured speeds, with the tracks and bodies that they are of, from a CSV file (docs/ski-jumps.md): columns `design` (a design file beside it; may be left out
 /// where `design` is given), one of `gate` and `length_m` (the length of in-run ridden, counted as the design counts e),
 /// one of `speed_km_h` and `speed_m_per_s`, and, if wanted, `before_edge_m` (where it was measured; without it the
 /// measuring place of the design) and `count`.
 /// @param design  for rows without one
 /// @throws FileError if the file cannot be read or lacks a column; InputError with the line where a gate or a length does not
 ///         belong to its hill; as read_design()
-[[nodiscard]] SpeedSheet read_speeds(const std::filesystem::path& file,
-                                     const std::optional<std::filesystem::path>& design = {});
+[[nodiscard]] std::vector<SpeedReading> read_speeds(const std::filesystem::path& file,
+                                                    const std::optional<std::filesystem::path>& design = {});
 
 }  // namespace glissade

@@ -37,16 +37,16 @@ void require_tracks(const std::vector<SpeedReading>& readings) {
 }
 
 /// @return where the speed was measured [m/s]; none where the body does not come there, or comes to rest there
-std::optional<double> speed_where_measured(const SpeedReading& reading, const Body& body, double gravity) {
-  const Motion motion = ride_from(reading.track, reading.from_start, body, gravity);
+std::optional<double> speed_where_measured(const SpeedReading& reading, const Body& body) {
+  const Motion motion = ride_from(reading.track, reading.from_start, body, reading.gravity);
   const double way = reading.place - reading.from_start;
   if (motion.distance() < way) return {};
   const double speed = motion.at(way).speed;
   return speed > 0.0 ? std::optional<double>(speed) : std::nullopt;
 }
 
-double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
-  const std::optional<double> speed = speed_where_measured(reading, body, gravity);
+double speed_of(const SpeedReading& reading, const Body& body) {
+  const std::optional<double> speed = speed_where_measured(reading, body);
   if (speed) return *speed;
   throw InputError({"",
                     reading.name + ": with a friction coefficient of " +
@@ -58,11 +58,13 @@ double speed_of(const SpeedReading& reading, const Body& body, double gravity) {
 }
 
 /// No fit explains a speed that is far beyond free fall: it is of another unit, or of another place.
-/// @param body  that rides; a wind from behind may push it
-void require_below_free_fall(const SpeedReading& reading, const Body& body, double gravity) {
+/// A wind from behind may push a body.
+void require_below_free_fall(const SpeedReading& reading) {
   constexpr double kBeyond = 1.05;  // taste: what a measurement is off by at most
   const double drop = reading.track->at(reading.place).drop - reading.track->at(reading.from_start).drop;
-  const double most = std::sqrt(std::max(body.entry_speed * body.entry_speed + 2.0 * gravity * drop, 0.0));
+  const Body& body = reading.body;
+  const double most =
+      std::sqrt(std::max(body.entry_speed * body.entry_speed + 2.0 * reading.gravity * drop, 0.0));
   if (body.head_wind < 0.0 || reading.speed <= kBeyond * most) return;
   throw InputError({"",
                     reading.name + ": " + rounded_text(reading.speed, 4) +
@@ -72,8 +74,7 @@ void require_below_free_fall(const SpeedReading& reading, const Body& body, doub
                     "design ridden"});
 }
 
-void require_readings(const std::vector<SpeedReading>& readings, std::size_t parameters, const Body& body,
-                      double gravity) {
+void require_readings(const std::vector<SpeedReading>& readings, std::size_t parameters) {
   if (readings.size() < parameters) {
     throw InputError({"",
                       std::to_string(readings.size()) + " speeds do not tell " + std::to_string(parameters) +
@@ -86,7 +87,7 @@ void require_readings(const std::vector<SpeedReading>& readings, std::size_t par
     const bool in_place = reading.from_start >= 0.0 && reading.place > reading.from_start &&
                           reading.place <= reading.track->length();
     if (in_place && reading.speed > 0.0 && std::isfinite(reading.speed)) {
-      require_below_free_fall(reading, body, gravity);
+      require_below_free_fall(reading);
       continue;
     }
     throw InputError(
@@ -102,9 +103,7 @@ void require_readings(const std::vector<SpeedReading>& readings, std::size_t par
 
 class Fit {
  public:
-  Fit(const std::vector<SpeedReading>& readings, const Body& body, const SpeedFitOptions& options,
-      double gravity)
-      : readings_(readings), body_(body), gravity_(gravity) {
+  Fit(const std::vector<SpeedReading>& readings, const SpeedFitOptions& options) : readings_(readings) {
     constexpr double kFirstFriction = 0.03;
     constexpr double kFirstDrag = 0.001;  // [1/m]
     friction_ = options.friction.value_or(kFirstFriction);
@@ -121,14 +120,13 @@ class Fit {
     fit.drag_at_bound = fits_drag_ && !(drag_ > 0.0);
     fit.friction = friction_;
     fit.drag = drag_;
-    fit.residuals = speed_residuals(readings_, current(), gravity_);
+    fit.residuals = speed_residuals(readings_, friction_, drag_);
     fit.rms = rms_of(fit.residuals);
     add_uncertainties(fit);
     return fit;
   }
 
  private:
-  [[nodiscard]] Body current() const { return with(body_, friction_, drag_); }
   [[nodiscard]] std::size_t parameters() const {
     return static_cast<std::size_t>(fits_friction_) + static_cast<std::size_t>(fits_drag_);
   }
@@ -138,10 +136,9 @@ class Fit {
     constexpr double kBeyond = std::numeric_limits<double>::infinity();
     constexpr double kMost = 1e4;  // taste: nothing slides that far against more, as coefficient or per metre
     if (!(friction < kMost && drag < kMost)) return kBeyond;
-    const Body body = with(body_, friction, drag);
     double sum = 0.0;
     for (const SpeedReading& reading : readings_) {
-      const std::optional<double> speed = speed_where_measured(reading, body, gravity_);
+      const std::optional<double> speed = speed_where_measured(reading, with(reading.body, friction, drag));
       if (!speed) return kBeyond;
       sum += (*speed - reading.speed) * (*speed - reading.speed);
     }
@@ -160,10 +157,11 @@ class Fit {
 
   [[nodiscard]] Normal normal() const {
     Normal sums;
-    const Body body = current();
     for (const SpeedReading& reading : readings_) {
-      const double excess = speed_of(reading, body, gravity_) - reading.speed;
-      SpeedSlopes slopes = speed_slopes(reading.track, reading.from_start, reading.place, body, gravity_);
+      const Body body = with(reading.body, friction_, drag_);
+      const double excess = speed_of(reading, body) - reading.speed;
+      SpeedSlopes slopes =
+          speed_slopes(reading.track, reading.from_start, reading.place, body, reading.gravity);
       if (!fits_friction_) slopes.by_friction = 0.0;
       if (!fits_drag_) slopes.by_drag = 0.0;
       sums.ff += slopes.by_friction * slopes.by_friction;
@@ -260,8 +258,6 @@ class Fit {
   }
 
   const std::vector<SpeedReading>& readings_;
-  const Body& body_;
-  double gravity_;
   double friction_ = 0.0;
   double drag_ = 0.0;
   bool fits_friction_ = true;
@@ -270,16 +266,36 @@ class Fit {
 
 }  // namespace
 
-std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings, const Body& body,
-                                           double gravity) {
+std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings) {
   require_tracks(readings);
   std::vector<SpeedResidual> residuals;
   residuals.reserve(readings.size());
   for (const SpeedReading& reading : readings) {
-    const double computed = speed_of(reading, body, gravity);
+    const double computed = speed_of(reading, reading.body);
     residuals.push_back({computed, computed - reading.speed});
   }
   return residuals;
+}
+
+std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings, double friction,
+                                           double drag) {
+  std::vector<SpeedReading> ridden = readings;
+  for (SpeedReading& reading : ridden) reading.body = with(reading.body, friction, drag);
+  return speed_residuals(ridden);
+}
+
+CommonResistance common_resistance(const std::vector<SpeedReading>& readings) {
+  const auto common = [&](const auto& value_of) {
+    std::optional<double> value;
+    for (const SpeedReading& reading : readings) {
+      const double own = value_of(reading.body);
+      if (value && *value != own) return std::optional<double>();
+      value = own;
+    }
+    return value;
+  };
+  return {common([](const Body& body) { return body.friction.coefficient(); }),
+          common([](const Body& body) { return body.drag_per_metre; })};
 }
 
 double rms_of(const std::vector<SpeedResidual>& residuals) {
@@ -289,12 +305,10 @@ double rms_of(const std::vector<SpeedResidual>& residuals) {
   return std::sqrt(sum / static_cast<double>(residuals.size()));
 }
 
-SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
-                    const SpeedFitOptions& options, double gravity) {
+SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const SpeedFitOptions& options) {
   require_readings(readings,
-                   static_cast<std::size_t>(!options.friction) + static_cast<std::size_t>(!options.drag),
-                   body, gravity);
-  return Fit(readings, body, options, gravity).run();
+                   static_cast<std::size_t>(!options.friction) + static_cast<std::size_t>(!options.drag));
+  return Fit(readings, options).run();
 }
 
 }  // namespace glissade

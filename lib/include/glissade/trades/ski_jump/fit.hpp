@@ -17,7 +17,10 @@ struct SpeedReading {
   double from_start = 0.0;  ///< where the rides began, from the start of the track [m]
   double place = 0.0;  ///< where the speed was measured, from the start of the track [m]; above `from_start`
   double speed = 0.0;  ///< [m/s]; > 0
-  double count = 1.0;  ///< how many rides it is the mean of; told, not weighted by
+  Body body =
+      {};  ///< that the design has there: its wind, centre height, entry speed, and its own friction and drag
+  double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
+  double count = 1.0;                ///< how many rides it is the mean of; told, not weighted by
 };
 
 /// One reading against the fitted body.
@@ -46,25 +49,34 @@ struct SpeedFitOptions {
   std::optional<double> drag;      ///< held at this [1/m]
 };
 
-/// Fits friction and drag to measured speeds by least squares, every reading alike: what hills differ by is far more than
+/// Fits one friction and one drag to measured speeds of all hills by least squares, every reading alike: what hills differ by is far more than
 /// the error of a mean. Rides are the referee's, derivatives those of speed_slopes().
 ///
 /// Uncertainties come from the scatter of the residuals (their sum of squares over readings less parameters) and the
 /// derivatives; where one is at its bound, none, they are those of both as if it were not: the truth may lie beside the
 /// bound, and then the other is less by what it takes. End speeds tell friction and drag apart badly: their correlation is near -1, and the sum of what both take
 /// away is known much better than either.
-/// @param body     everything else about the body: height of the centre of mass, wind
+/// Everything else is each reading's own: height of the centre of mass, wind, entry speed, gravity.
 /// @throws InputError if there are fewer readings than parameters, a reading has no track, is out of its range or a
 ///   twentieth above free fall (unless the wind comes from behind), a body without what is fitted does not come to its
 ///   place, or rides of one length to one place do not tell friction and drag apart
 /// @throws ConvergenceError if the iteration does not settle
-[[nodiscard]] SpeedFit fit_speeds(const std::vector<SpeedReading>& readings, const Body& body,
-                                  const SpeedFitOptions& options = {}, double gravity = kDefaultGravity);
+[[nodiscard]] SpeedFit fit_speeds(const std::vector<SpeedReading>& readings,
+                                  const SpeedFitOptions& options = {});
 
-/// The readings against a given body.
+/// The readings against the bodies of their own designs.
 /// @throws InputError if a reading has no track, or a ride does not come to its place
+[[nodiscard]] std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings);
+/// The same with one friction coefficient and one drag [1/m] for all of them.
 [[nodiscard]] std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings,
-                                                         const Body& body, double gravity = kDefaultGravity);
+                                                         double friction, double drag);
+/// Friction and drag that the designs of all readings have; none where they differ.
+struct CommonResistance {
+  std::optional<double> friction;  ///< coefficient
+  std::optional<double> drag;      ///< [1/m]
+};
+[[nodiscard]] CommonResistance common_resistance(const std::vector<SpeedReading>& readings);
+
 /// @return root of the mean square of the excesses [m/s]
 [[nodiscard]] double rms_of(const std::vector<SpeedResidual>& residuals);
 
