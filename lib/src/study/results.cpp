@@ -2,6 +2,7 @@
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/study/study.hpp"
 
+#include "study/interrupted.hpp"
 #include "study/manifest.hpp"
 #include "study/table_file.hpp"
 
@@ -143,9 +144,7 @@ std::vector<std::uint64_t> Results::missing() const {
 void Results::for_each(const std::function<void(const Row&)>& visit, const Progress& progress,
                        const std::stop_token& stop) const {
   std::uint64_t next = 0;
-  const Issue interrupted{directory_.string(), "interrupted; the rows that are written stay",
-                          "The same command goes on where this one ended.", ""};
-  for_each_line(*this, progress, stop, interrupted,
+  for_each_line(*this, progress, stop, interrupted_sweep(directory_),
                 [&](const std::string& line, const fs::path& file, std::size_t number) {
                   visit(row_of(*this, line, next++, file, number));
                 });

@@ -4,6 +4,7 @@
 #include "glissade/study/study.hpp"
 
 #include "study/evaluation.hpp"
+#include "study/interrupted.hpp"
 #include "study/manifest.hpp"
 
 #include <algorithm>
@@ -42,11 +43,6 @@ std::string chunk_text(const Evaluation& evaluation, const Plan& plan, std::uint
   std::string text = table_heading(plan, evaluation.columns()) + "\n";
   for (const std::string& row : rows) text += row + "\n";
   return text;
-}
-
-[[noreturn]] void throw_interrupted(const fs::path& directory) {
-  throw Interrupted({directory.string(), "interrupted; the rows that are written stay",
-                     "The same command goes on where this one ended.", ""});
 }
 
 }  // namespace
@@ -141,7 +137,7 @@ RunReport run(const Study& study, const RunOptions& options) {
     }
     std::string text;
     arena.execute([&] { text = chunk_text(evaluation, study.plan, chunk, options.stop, row_done); });
-    if (options.stop.stop_requested()) throw_interrupted(options.directory);
+    if (options.stop.stop_requested()) throw Interrupted(interrupted_sweep(options.directory));
     write_atomically(chunk_path(options.directory, chunk), text);
     ++report.chunks_computed;
   }
