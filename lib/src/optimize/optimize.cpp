@@ -760,7 +760,53 @@ BriefEnd searched(const Problem& problem, const OptimizeOptions& options, Reason
   take_ramp(problem, options, optimum);
   tell_end(problem, options, course, patience.out_of_time(), is_exact, optimum);
   if (is_track_of(course, optimum)) end.foothold = course.foothold();
+  end.objective = course.best().found->objective;
   return end;
+}
+
+/// The problem of the tracks that end before the place from which a lowest speed holds: it asks nothing of them.
+/// @return none where there is no such place, or no track as short
+std::optional<Problem> ending_before_lowest_speed(const Problem& problem) {
+  constexpr double kBefore = 1e-6;  // accuracy: ten times that of a limit
+  const Limits& limits = problem.limits;
+  const double longest = limits.lowest_speed_from * (1.0 - kBefore);
+  if (!limits.speed.lowest || limits.arc_length.lowest.value_or(0.0) > longest) return std::nullopt;
+  const bool is_point = problem.finish.kind == FinishKind::point;
+  const double distance = std::hypot(problem.endpoints.run, problem.endpoints.drop);
+  if (!(longest > (is_point ? distance : limits.lead_in + limits.lead_out))) return std::nullopt;
+  Problem shorter = problem;
+  shorter.limits.speed.lowest.reset();
+  shorter.limits.lowest_speed_from = 0.0;
+  shorter.limits.arc_length.highest = std::min(limits.arc_length.highest.value_or(longest), longest);
+  return shorter;
+}
+
+/// Whether a lowest speed is in the way of a track, or of a better one.
+bool is_held_up_by_lowest_speed(const OptimizeReport& report) {
+  return report.status != OptimizeStatus::optimal ||
+         std::any_of(report.active.begin(), report.active.end(), [](const ActiveLimit& active) {
+           return active.limit == LimitName{LimitId::speed, Bound::lowest};
+         });
+}
+
+/// The better one of the tracks that are as fast as asked from a place on, and those that end before it: between the two lies none,
+/// and no small step leads from one to the other.
+BriefEnd better_with_those_before(const Problem& problem, BriefEnd end,
+                                  const std::function<BriefEnd(const Problem&)>& searched_too) {
+  if (end.optimum.report.ended_early || !is_held_up_by_lowest_speed(end.optimum.report)) return end;
+  const std::optional<Problem> shorter = ending_before_lowest_speed(problem);
+  if (!shorter) return end;
+  BriefEnd before = searched_too(*shorter);
+  if (!before.optimum.centerline || !(before.objective < end.objective)) return end;
+  OptimizeReport& report = before.optimum.report;
+  report.checks = check_limits(problem, before.optimum.centerline);
+  // That it ends there is nobody's limit.
+  if (shorter->limits.arc_length.highest != problem.limits.arc_length.highest) {
+    std::erase_if(report.active, [](const ActiveLimit& active) {
+      return active.limit == LimitName{LimitId::arc_length, Bound::highest};
+    });
+  }
+  return before;
 }
 
 /// The search that goes on from a track it is given: no other starts, and no reasons where it leads to none.
@@ -828,6 +874,11 @@ BriefEnd searched_once(const Problem& problem, const OptimizeOptions& options, R
   control.stop = [&] { return patience.ends(); };
   BriefEnd end = foothold != nullptr ? searched_from(problem, options, *foothold, patience, control, progress)
                                      : searched(problem, options, reasons, patience, control, progress);
+  if (foothold == nullptr) {
+    end = better_with_those_before(problem, std::move(end), [&](const Problem& shorter) {
+      return searched(shorter, options, Reasons::alone, patience, control, progress);
+    });
+  }
   meet_finish(problem, options.limit_tolerance, end.optimum);
   end.optimum.report.iterations = control.rounds;
   end.optimum.report.evaluations = control.evaluations;

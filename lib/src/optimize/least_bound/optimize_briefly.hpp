@@ -4,6 +4,7 @@
 
 #include "optimize/conflicts/infeasibility.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace glissade::optimizer {
@@ -13,6 +14,8 @@ struct BriefEnd {
   Optimum optimum;
   /// The track as the search has it; none where it came from no mesh.
   std::optional<Foothold> foothold;
+  /// Of the search's best track, as the search counts it; infinite where it has none.
+  double objective = HUGE_VAL;
 };
 
 /// optimize(), for a search that is made of many: where no track keeps the limits, no bounds that would do are looked for. Those
