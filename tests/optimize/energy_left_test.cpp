@@ -4,6 +4,7 @@
 
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/motion/motion.hpp"
+#include "glissade/optimize/optimize.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
@@ -154,6 +155,40 @@ TEST_CASE("where energy may be added, or the finish lie as deep as one likes, no
   CHECK(!most_speed_left(problem));
   problem.finish.free_range.highest = 20.0;
   CHECK(most_speed_left(problem).value() == Approx(2.0 * fallen).epsilon(1e-14));
+}
+
+TEST_CASE(
+    "a lowest speed that begins before a fall gives it is called infeasible, one that begins later is not") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < 6; ++i) {
+    Problem problem;
+    problem.endpoints = {10.0, random.between(4.0, 9.0)};
+    problem.body.friction = Friction::from_coefficient(random.between(0.0, 0.1));
+    problem.body.entry_speed = i % 2 == 0 ? 0.0 : random.between(0.1, 2.0);
+    const double from = random.between(0.2, 1.5);
+    problem.limits.lowest_speed_from = from;
+    const double most = optimizer::most_speed_after(problem, from).value();
+    CHECK(most == Approx(std::sqrt(problem.body.entry_speed * problem.body.entry_speed +
+                                   2.0 * problem.gravity * from)));
+    CAPTURE(i, from, most);
+    problem.limits.speed.lowest = 1.01 * most;
+    const OptimizeReport none = optimize(problem).report;
+    CHECK(none.status == OptimizeStatus::infeasible);
+    REQUIRE(none.conflict.limits.size() == 1);
+    CHECK(none.conflict.limits.front().limit == LimitName{LimitId::speed, Bound::lowest});
+    CHECK_THAT(none.conflict.text + none.conflict.why,
+               Catch::Matchers::Contains("Whatever the shape of the track, a fall of ") &&
+                   Catch::Matchers::Contains("lowest_from has to be more than that"));
+    problem.limits.speed.lowest = 0.9 * most;
+    CHECK(optimize(problem).centerline != nullptr);
+  }
+  // A wind from behind may give it.
+  Problem pushed;
+  pushed.endpoints = {10.0, 5.0};
+  pushed.body.drag_per_metre = 0.01;
+  pushed.body.head_wind = -20.0;
+  CHECK_FALSE(optimizer::most_speed_after(pushed, 1.0));
 }
 
 }  // namespace energy_left_test

@@ -147,6 +147,12 @@ std::optional<double> most_speed_left(const Problem& problem) {
   return std::sqrt(square);
 }
 
+std::optional<double> most_speed_after(const Problem& problem, double length) {
+  if (!only_loses(problem.body)) return std::nullopt;
+  const double entry = problem.body.entry_speed;
+  return std::sqrt(entry * entry + 2.0 * problem.gravity * length);
+}
+
 std::optional<double> least_speed_left(const Problem& problem) {
   const Body& body = problem.body;
   if (problem.finish.kind != FinishKind::point || !is_sliding_point(body) || body.drag_per_metre > 0.0) {

@@ -28,6 +28,11 @@ namespace glissade::optimizer {
 ///         may lie as deep as one likes
 [[nodiscard]] std::optional<double> most_speed_left(const Problem& problem);
 
+/// No body is faster after so much of its track [m/s]: that would take a fall of more than its length.
+/// @param length  [m]; >= 0
+/// @return none where there is no such bound: as most_speed_left(), but for the finish
+[[nodiscard]] std::optional<double> most_speed_after(const Problem& problem, double length);
+
 /// What a search takes for lying still at the end of a track so long [m/s]: kCreep of the squared speed of free fall.
 [[nodiscard]] double creeping_speed(const Problem& problem, double length);
 
