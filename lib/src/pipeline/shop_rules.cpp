@@ -16,9 +16,9 @@ namespace {
 /// One place as the rules of a track are judged: by what was measured there.
 Measurements at_place(const ShopMeasurement& measured) {
   Measurements measurements;
-  if (measured.thickness) measurements.set("part_thickness", *measured.thickness);
-  if (measured.density) measurements.set("part_density", *measured.density);
-  measurements.set(measured.quantity, measured.in_units());
+  if (measured.thickness) measurements.see("part_thickness", *measured.thickness);
+  if (measured.density) measurements.see("part_density", *measured.density);
+  measurements.see(measured.quantity, measured.in_units());
   return measurements;
 }
 
