@@ -95,6 +95,20 @@ TEST_CASE("shop rules: conditions choose the parts by thickness and density") {
   CHECK(judge_shop({rule}, workshop).empty());
 }
 
+TEST_CASE("shop rules: a part of which too little is known hides behind none that keeps the rule") {
+  Workshop workshop;
+  workshop.measured = {hole(4e-3, 4e-3, "kept"), hole(4e-3, 4e-3, "of unknown density")};
+  workshop.measured.back().density.reset();
+  Rule rule = rule_of("hole_thicknesses", {0.9, {}});
+  rule.when = {{"part_density", {4000.0, {}}}};
+  const ShopCheck open = judge_shop({rule}, workshop).front();
+  CHECK(open.verdict == ShopVerdict::cannot_be_judged);
+  CHECK_THAT(open.where, Contains("of unknown density: density of a part is not known"));
+  // What is broken is told first.
+  workshop.measured.push_back(hole(1e-3, 4e-3, "broken"));
+  CHECK(judge_shop({rule}, workshop).front().where == "broken");
+}
+
 TEST_CASE("shop rules: what nothing has is not told of shipped rules, and cannot be judged by others") {
   Workshop workshop;
   workshop.measured = {hole(10e-3, 4e-3, "floor")};

@@ -47,7 +47,7 @@ Judgement judged(const Rule& rule, const Measurements& measurements) {
 
 Measurements speed_of(double speed) {
   Measurements measurements;
-  measurements.set("exit_speed", speed, 5.0, "high friction");
+  measurements.see("exit_speed", speed, 5.0, "high friction");
   return measurements;
 }
 
@@ -99,14 +99,14 @@ TEST_CASE("a judgement tells value, place, the nearer bound and the margin to it
 
 TEST_CASE("what nobody measured cannot be judged, and the reason names what is missing") {
   Measurements measurements;
-  measurements.set_missing("hill_size", "hill: {size: 142 m}");
+  measurements.lack("hill_size", "hill: {size: 142 m}");
   const Judgement unknown = judged(rule_of("hill_size", {100.0, {}}), measurements);
   CHECK(unknown.verdict == RuleVerdict::cannot_be_judged);
   CHECK(unknown.reason == "the hill size HS needs hill: {size: 142 m}");
   CHECK_FALSE(unknown.value.has_value());
   CHECK(judged(rule_of("drop", {{}, 1.0}), measurements).reason ==
         "this track has no drop from start to finish");
-  CHECK_THROWS_AS(measurements.set("gadgets", 1.0), InternalError);
+  CHECK_THROWS_AS(measurements.see("gadgets", 1.0), InternalError);
 }
 
 TEST_CASE("a rule holds where its conditions do, and is left out elsewhere") {
@@ -114,10 +114,64 @@ TEST_CASE("a rule holds where its conditions do, and is left out elsewhere") {
   rule.when = {{"hill_size", {110.0, 184.0}}};
   Measurements measurements = speed_of(10.0);
   CHECK(judged(rule, measurements).verdict == RuleVerdict::cannot_be_judged);
-  measurements.set("hill_size", 140.0);
+  measurements.see("hill_size", 140.0);
   CHECK(judged(rule, measurements).verdict == RuleVerdict::fail);
-  measurements.set("hill_size", 100.0);
-  CHECK(judge({rule}, measurements).empty());
+  Measurements small = speed_of(10.0);
+  small.see("hill_size", 100.0);
+  CHECK(judge({rule}, small).empty());
+}
+
+TEST_CASE("each side of a rule is held against the extreme that would break it first") {
+  Measurements measurements;
+  measurements.see("exit_speed", 6.0, 5.0, "low friction");
+  measurements.see("exit_speed", 5.0, 5.0, "nominal friction");
+  measurements.see("exit_speed", 3.0, 4.0, "high friction");
+  CHECK(judged(rule_of("exit_speed", {4.0, {}}), measurements).place == "high friction");
+  CHECK(judged(rule_of("exit_speed", {4.0, {}}), measurements).verdict == RuleVerdict::fail);
+  CHECK(judged(rule_of("exit_speed", {{}, 7.0}), measurements).place == "low friction");
+  // Of two sides that are broken the one that is more so; of two that are kept the nearer one.
+  const Judgement both = judged(rule_of("exit_speed", {3.5, 4.0}), measurements);
+  CHECK(both.value == 6.0);
+  CHECK(both.margin == -2.0);
+  const Judgement kept = judged(rule_of("exit_speed", {2.5, 7.0}), measurements);
+  CHECK(kept.verdict == RuleVerdict::pass);
+  CHECK(kept.value == 3.0);
+  CHECK(kept.arc_length == 4.0);
+  // A side that is broken comes before one that its allowance keeps, however small its margin is.
+  const Judgement tiny = judged(rule_of("exit_speed", {3.0 + 3.2e-6, 6.0 - 5.5e-6}), measurements);
+  CHECK(tiny.verdict == RuleVerdict::fail);
+  CHECK(tiny.value == 3.0);
+}
+
+TEST_CASE("where a ride lacks a quantity a rule on it is broken by the others, or cannot be judged") {
+  Measurements measurements = speed_of(8.0);
+  measurements.lack("exit_speed", "rides that arrive (low friction: lifted off at 3 m)");
+  measurements.lack("exit_speed", "something else");
+  const Judgement open = judged(rule_of("exit_speed", {{}, 9.0}), measurements);
+  CHECK(open.verdict == RuleVerdict::cannot_be_judged);
+  CHECK(open.reason == "the speed at the finish needs rides that arrive (low friction: lifted off at 3 m)");
+  CHECK(open.value == 8.0);
+  CHECK_FALSE(open.bound);
+  const Judgement broken = judged(rule_of("exit_speed", {{}, 7.0}), measurements);
+  CHECK(broken.verdict == RuleVerdict::fail);
+  CHECK(broken.reason.empty());
+  // No number is no value.
+  Measurements nothing = speed_of(std::numeric_limits<double>::quiet_NaN());
+  CHECK(judged(rule_of("exit_speed", {{}, 7.0}), nothing).reason == "speed at the finish is not known");
+}
+
+TEST_CASE("a condition on what rides differ in is met where one of them may meet it") {
+  Measurements measurements = speed_of(8.0);
+  measurements.see("exit_speed", 4.0);
+  const auto met = [&](Range range) { return is_met({"exit_speed", range}, measurements); };
+  CHECK(met({7.0, {}}) == true);
+  CHECK(met({{}, 5.0}) == true);
+  CHECK(met({9.0, {}}) == false);
+  CHECK(met({{}, 3.0}) == false);
+  measurements.lack("exit_speed", "rides that arrive");
+  CHECK(met({7.0, {}}) == true);
+  CHECK_FALSE(met({9.0, {}}).has_value());
+  CHECK_FALSE(is_met({"hill_size", {1.0, {}}}, measurements).has_value());
 }
 
 TEST_CASE("the worst verdict is a failure, then a warning, then what cannot be judged") {
@@ -236,7 +290,7 @@ TEST_CASE("what rules measure on a straight slide is what its formulas say, at t
   const Measurements measurements = rule_measurements(design, track);
   const auto value = [&](std::string_view key) {
     REQUIRE(measurements.find(key) != nullptr);
-    return *measurements.find(key)->value;
+    return measurements.find(key)->most()->value;
   };
   const double slope = std::atan2(3.0, 5.0);
   const double length = std::hypot(3.0, 5.0);
@@ -247,7 +301,7 @@ TEST_CASE("what rules measure on a straight slide is what its formulas say, at t
     return std::sqrt(2.0 * 9.81 * length * (std::sin(slope) - mu * std::cos(slope)));
   };
   CHECK(value("highest_speed") == Approx(speed_at(10.0)).epsilon(1e-12));
-  CHECK(measurements.find("highest_speed")->place == "low friction");
+  CHECK(measurements.find("highest_speed")->most()->place == "low friction");
   CHECK(value("highest_normal_load") == Approx(9.81 * std::cos(slope)).epsilon(1e-12));
   CHECK(value("highest_radial_acceleration") == Approx(0.0).margin(1e-12));
   CHECK(std::isinf(value("smallest_valley_radius")));
@@ -277,16 +331,16 @@ TEST_CASE("the load on a jumper is held against the weight on this table and the
     const Design design = read_design(designs_path(file));
     const Track track = solve(design);
     const Measurements measurements = rule_measurements(design, track);
-    const Measurements::Entry* const load = measurements.find("highest_normal_load");
-    const Measurements::Entry* const above = measurements.find("load_above_table_weight");
-    REQUIRE(above != nullptr);
+    REQUIRE(measurements.find("load_above_table_weight") != nullptr);
+    const auto& load = measurements.find("highest_normal_load")->most();
+    const auto& above = measurements.find("load_above_table_weight")->most();
     const double weight = design.gravity * std::cos(design.centerline.in_run.alpha.radians());
-    CHECK(*above->value == Approx(*load->value - weight).epsilon(1e-9));
+    CHECK(above->value == Approx(load->value - weight).epsilon(1e-9));
     CHECK(above->place == load->place);
     const std::vector<Judgement> judgements = judge_rules(design, track);
     const Judgement& judged = judgement_of(judgements, "fis.in-run.load");
     CHECK(judged.rule.bound.highest == Approx(1.0 / 0.14).epsilon(1e-12));
-    CHECK((judged.verdict == RuleVerdict::pass) == (*load->value <= weight + 1.0 / 0.14));
+    CHECK((judged.verdict == RuleVerdict::pass) == (load->value <= weight + 1.0 / 0.14));
     // Where both are at E2 the load says what the radial acceleration does.
     CHECK(judged.verdict == judgement_of(judgements, "fis.in-run.radial-acceleration").verdict);
   }

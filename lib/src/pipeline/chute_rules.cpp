@@ -13,9 +13,11 @@
 #include "glissade/trades/chute/stream.hpp"
 
 #include "pipeline/extremes.hpp"
+#include "pipeline/ride_facts.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -27,33 +29,19 @@ std::string case_text(const ChuteCase& of) {
   return std::string(to_text(of.friction)) + " friction, " + of.flow + " flow";
 }
 
-/// Keeps the worst of several cases, with the case that it is of.
-class WorstCase {
- public:
-  /// @param sign  1: the highest is the worst, -1: the lowest
-  explicit WorstCase(double sign) : sign_(sign) {}
-
-  /// @param part  where, if not along the track
-  void see(double value, std::optional<double> arc_length, const ChuteCase& of,
-           const std::string& part = "") {
-    // Of equals the last, which is the largest flow: at the start all are as fast as they enter.
-    if (value_ && sign_ * value < sign_ * *value_) return;
-    value_ = value;
-    arc_length_ = arc_length;
-    place_ = part + case_text(of);
-  }
-  void set_in(Measurements& measurements, std::string_view key) const {
-    if (value_) measurements.set(key, *value_, arc_length_, place_);
-  }
-
- private:
-  double sign_;
-  std::optional<double> value_;
-  std::optional<double> arc_length_;
-  std::string place_;
-};
-
 constexpr const char* kAtHood = "hood, ";
+
+/// Of a case that does not get onto its track, or not down to the finish.
+std::string missing_end(const ChuteCase& of) {
+  if (of.hood && !of.hood->holds())
+    return "a stream that its hood leads on to the track (" + case_text(of) + ")";
+  return missing_arrival(case_text(of), ride_end(of.motion), of.motion.distance());
+}
+
+void lack_all(Measurements& measurements, std::initializer_list<const char*> keys,
+              const std::string& missing) {
+  for (const char* const key : keys) measurements.lack(key, missing);
+}
 
 /// The greatest flow at the lowest density, at which it is deepest.
 Body surging(const StreamDesign& stream, const Body& body) {
@@ -83,7 +71,7 @@ std::vector<double> breaks_with(const Centerline& centerline, const std::vector<
 /// Of all flows the largest stops first: it is deeper at each speed, rubs more and is slower.
 void measure_stall_margin(const Design& design, const Track& track, Measurements& measurements) {
   if (!lands(track.motion)) {
-    measurements.set_missing("stall_margin", "a feed that lands: it flies over the start");
+    measurements.lack("stall_margin", "a feed that lands: it flies over the start");
     return;
   }
   const StreamDesign& stream = *design.stream;
@@ -91,7 +79,7 @@ void measure_stall_margin(const Design& design, const Track& track, Measurements
   const Body body = surges ? surging(stream, body_of(design)) : body_of(design);
   if (const auto stops = stall_friction_angle(track.centerline, body, design.gravity))
     // That angle is the start's, and so is the one that it is held against: all along friction changes with it.
-    measurements.set("stall_margin", stops->radians() - highest_friction_angle(design.body, 0.0), {},
+    measurements.see("stall_margin", stops->radians() - highest_friction_angle(design.body, 0.0), {},
                      surges ? "surge flow" : "nominal flow");
 }
 
@@ -102,15 +90,18 @@ void measure_slope_margin(const BodyDesign& body, const Centerline& centerline, 
   const std::vector<double> breaks = breaks_with(centerline, changes);
   const Extreme flattest = highest_along(
       breaks, [&](double s) { return highest_friction_angle(body, s) - centerline.slope_angle(s); });
-  measurements.set("slope_margin", -flattest.value, flattest.at);
+  measurements.see("slope_margin", -flattest.value, flattest.at);
+  const Extreme steepest = highest_along(
+      breaks, [&](double s) { return centerline.slope_angle(s) - highest_friction_angle(body, s); });
+  measurements.see("slope_margin", steepest.value, steepest.at);
   double roughest = 0.0;
   for (const double s : breaks) {
     // What begins where the track ends rubs nothing.
     if (s < centerline.length()) roughest = std::max(roughest, highest_friction_angle(body, s));
   }
-  measurements.set("highest_friction_angle", roughest);
+  measurements.see("highest_friction_angle", roughest);
   // How far it is known at one place: that it changes along the track is no range.
-  measurements.set("friction_spread", body.high_friction.value_or(body.friction).angle().radians() -
+  measurements.see("friction_spread", body.high_friction.value_or(body.friction).angle().radians() -
                                           body.low_friction.value_or(body.friction).angle().radians());
 }
 
@@ -126,7 +117,7 @@ void measure_slopes(const Design& design, const Track& track, Measurements& meas
     const double turned = math::atan(0.5 * stream.width_slope(s));
     return -math::asin(math::sin(centerline.slope_angle(s)) * math::cos(turned));
   });
-  measurements.set("valley_angle", -valley.value, valley.at);
+  measurements.see("valley_angle", -valley.value, valley.at);
   measure_stall_margin(design, track, measurements);
 }
 
@@ -147,165 +138,152 @@ void measure_arrivals(const std::vector<ChuteCase>& cases, Measurements& measure
   for (const ChuteCase& run : cases) {
     if (arrives(run)) continue;
     count += 1.0;
-    // Of equals the last, as the other rules have it.
-    if (first == nullptr || way(run) <= way(*first)) first = &run;
+    if (first == nullptr || way(run) < way(*first)) first = &run;
   }
   if (first == nullptr) {
-    measurements.set("cases_not_arriving", 0.0);
+    measurements.see("cases_not_arriving", 0.0);
     return;
   }
   const bool below_hood = way(*first) < 0.0;
   const std::string_view how = !below_hood                      ? to_text(ride_end(first->motion))
                                : first->hood->motion.lift_off() ? "leaves it before its lower edge"
                                                                 : "comes to a stand";
-  measurements.set("cases_not_arriving", count, below_hood ? std::nullopt : std::optional(way(*first)),
+  measurements.see("cases_not_arriving", count, below_hood ? std::nullopt : std::optional(way(*first)),
                    (below_hood ? kAtHood : "") + case_text(*first) + ": " + std::string(how));
 }
 
-/// What the stream does on the track and below a hood before it: the worst of all cases.
-class WorstRides {
- public:
-  void see(const ChuteCase& run, double wall);
-  void see_hood(const ChuteCase& run, double wall);
-  void set_in(Measurements& measurements) const;
-
- private:
-  WorstCase slowest_{-1.0};
-  WorstCase lightest_{-1.0};
-  WorstCase deepest_{1.0};
-  WorstCase thickest_{1.0};
-  WorstCase peak_{1.0};
-  WorstCase held_{-1.0};
-};
-
-void WorstRides::see(const ChuteCase& run, double wall) {
-  const Motion& motion = run.motion;
-  // What flies over the start is no ride, and what stands there only slow.
-  if (stands_where_it_lands(motion)) slowest_.see(0.0, 0.0, run);
-  if (!enters(motion)) return;
-  const BulkStream& stream = *stream_of(motion.body());
-  const QuantityPeak slow = motion.highest([](const LawState& at) { return -std::sqrt(at.v); });
-  slowest_.see(-slow.value, slow.arc_length, run);
-  const QuantityPeak light = motion.highest(
-      [&](const LawState& at) { return -at.normal_load / (motion.gravity() * math::cos(at.slope_angle)); });
-  lightest_.see(-light.value, light.arc_length, run);
-  const QuantityPeak depth = motion.highest(BulkStream::kDepth);
-  deepest_.see(depth.value / wall, depth.arc_length, run);
-  const QuantityPeak thick = motion.highest([&](const LawState& at) {
-    return stream.depth(at.arc_length, std::sqrt(at.v)) / stream.width(at.arc_length);
-  });
-  thickest_.see(thick.value, thick.arc_length, run);
-  if (!motion.arrived()) return;
-  const ValueAt most = stream_peak(motion, &StreamState::floor_wear);
-  const double mean = mean_floor_wear(motion);
-  if (mean > 0.0) peak_.see(most.value / mean, most.arc_length, run);
+/// Of a quantity along a ride both extremes.
+void see_along(const Motion& motion, const Motion::Quantity& quantity, std::string_view key,
+               const ChuteCase& run, Measurements& measurements) {
+  const QuantityPeak most = motion.highest(quantity);
+  measurements.see(key, most.value, most.arc_length, case_text(run));
+  // The reciprocal stays finite where a stream that comes to a stand is deep without bound.
+  const QuantityPeak least = motion.highest([&](const LawState& at) { return 1.0 / quantity(at); });
+  measurements.see(key, 1.0 / least.value, least.arc_length, case_text(run));
 }
 
-void WorstRides::see_hood(const ChuteCase& run, double wall) {
-  const Motion& motion = run.hood->motion;
-  if (!(run.hood->impact.speed_ratio > 0.0)) {
-    slowest_.see(0.0, {}, run, kAtHood);
+/// What the stream of a case does on its track.
+/// @param slowest  gets its lowest speed there
+void measure_on_track(const ChuteCase& run, double wall, Extremes& slowest, Measurements& measurements) {
+  const Motion& motion = run.motion;
+  const std::string place = case_text(run);
+  // What flies over the start is no ride, and what stands there only slow.
+  if (stands_where_it_lands(motion)) slowest.see({0.0, 0.0, place});
+  if (!enters(motion)) {
+    lack_all(measurements,
+             {"lowest_stream_speed", "contact_reserve", "depth_over_wall", "depth_over_width", "wear_peak"},
+             missing_end(run));
     return;
   }
-  const double width = stream_of(motion.body())->width(0.0);
-  const double depth = motion.highest(BulkStream::kDepth).value;
-  deepest_.see(depth / wall, {}, run, kAtHood);
-  thickest_.see(depth / width, {}, run, kAtHood);
-  // With one width it is slowest where it is deepest.
-  slowest_.see(stream_of(motion.body())->depth(0.0, 1.0) / depth, {}, run, kAtHood);
-  held_.see(run.hood->least_contact, {}, run, kAtHood);
+  const BulkStream& stream = *stream_of(motion.body());
+  const QuantityPeak slow = motion.highest([](const LawState& at) { return -std::sqrt(at.v); });
+  slowest.see({-slow.value, slow.arc_length, place});
+  const QuantityPeak light = motion.highest(
+      [&](const LawState& at) { return -at.normal_load / (motion.gravity() * math::cos(at.slope_angle)); });
+  measurements.see("contact_reserve", -light.value, light.arc_length, place);
+  const auto depth = [&](const LawState& at) { return stream.depth(at.arc_length, std::sqrt(at.v)); };
+  see_along(
+      motion, [&](const LawState& at) { return depth(at) / wall; }, "depth_over_wall", run, measurements);
+  see_along(
+      motion, [&](const LawState& at) { return depth(at) / stream.width(at.arc_length); }, "depth_over_width",
+      run, measurements);
+  if (!arrives(run)) {
+    measurements.lack("wear_peak", missing_end(run));
+    return;
+  }
+  const ValueAt most = stream_peak(motion, &StreamState::floor_wear);
+  const double mean = mean_floor_wear(motion);
+  if (mean > 0.0) measurements.see("wear_peak", most.value / mean, most.arc_length, place);
 }
 
-void WorstRides::set_in(Measurements& measurements) const {
-  slowest_.set_in(measurements, "lowest_stream_speed");
-  lightest_.set_in(measurements, "contact_reserve");
-  held_.set_in(measurements, "hood_contact");
-  deepest_.set_in(measurements, "depth_over_wall");
-  thickest_.set_in(measurements, "depth_over_width");
-  peak_.set_in(measurements, "wear_peak");
+/// What it does below its hood.
+/// @param slowest  gets its lowest speed there
+void measure_hood(const ChuteCase& run, double wall, Extremes& slowest, Measurements& measurements) {
+  const Motion& motion = run.hood->motion;
+  const std::string place = kAtHood + case_text(run);
+  if (!(run.hood->impact.speed_ratio > 0.0)) {
+    slowest.see({0.0, {}, place});
+    lack_all(measurements, {"hood_contact", "depth_over_wall", "depth_over_width"}, missing_end(run));
+    return;
+  }
+  const BulkStream& stream = *stream_of(motion.body());
+  const double width = stream.width(0.0);
+  const double deepest = motion.highest(BulkStream::kDepth).value;
+  const double shallowest =
+      stream.depth(0.0, motion.highest([](const LawState& at) { return std::sqrt(at.v); }).value);
+  for (const double depth : {deepest, shallowest}) {
+    measurements.see("depth_over_wall", depth / wall, {}, place);
+    measurements.see("depth_over_width", depth / width, {}, place);
+  }
+  // With one width it is slowest where it is deepest.
+  slowest.see({stream.depth(0.0, 1.0) / deepest, {}, place});
+  measurements.see("hood_contact", run.hood->least_contact, {}, place);
 }
 
 void measure_motion(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
-  WorstRides worst;
   const double wall = stream_channel(design.cross_section.value()).value().wall_height;
   for (const ChuteCase& run : cases) {
-    worst.see(run, wall);
-    if (run.hood) worst.see_hood(run, wall);
+    Extremes slowest;
+    measure_on_track(run, wall, slowest, measurements);
+    if (run.hood) measure_hood(run, wall, slowest, measurements);
+    if (slowest.least()) measurements.see("lowest_stream_speed", *slowest.least());
   }
-  worst.set_in(measurements);
-  measurements.set("hoods", design.hood ? 1.0 : 0.0);
+  measurements.see("hoods", design.hood ? 1.0 : 0.0);
 }
 
 void measure_feed(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
   if (!design.feed) {
-    for (const char* const key : {"landing_margin", "impact_speed_ratio", "impact_angle", "feed_drop"})
-      measurements.set_missing(key, "feed: {kind: belt, ...}, how the stream comes down");
+    lack_all(measurements, {"landing_margin", "impact_speed_ratio", "impact_angle", "feed_drop"},
+             "feed: {kind: belt, ...}, how the stream comes down");
     return;
   }
-  measurements.set("feed_drop", std::max(design.feed->drop, design.hood ? design.hood->drop : 0.0));
-  WorstCase margin(-1.0);
-  WorstCase ratio(-1.0);
-  WorstCase angle(1.0);
-  bool all_land = true;
+  measurements.see("feed_drop", design.feed->drop);
+  if (design.hood) measurements.see("feed_drop", design.hood->drop);
+  const auto see = [&](const char* key, double value, std::optional<double> at, const ChuteCase& run,
+                       const char* part = "") { measurements.see(key, value, at, part + case_text(run)); };
   for (const ChuteCase& run : cases) {
     const std::optional<Impact> impact = impact_of(run.motion);
     const double slope = run.motion.centerline().slope_angle(0.0);
     // What lands within the rounding of a search lands.
     const double steeper = run.motion.body().landing.value().angle.radians() - slope;
-    margin.see(impact ? std::max(0.0, steeper) : steeper, 0.0, run);
-    all_land = all_land && impact;
-    if (!impact) continue;
+    see("landing_margin", impact ? std::max(0.0, steeper) : steeper, 0.0, run);
+    if (!impact) {
+      lack_all(measurements, {"impact_speed_ratio", "impact_angle"}, missing_end(run));
+      continue;
+    }
     // Friction takes no more than all of the speed; what stands below its hood has none to lose.
     if (!run.hood || run.hood->holds() || run.hood->motion.lift_off()) {
-      ratio.see(std::max(0.0, impact->speed_ratio), 0.0, run);
-      angle.see(impact->angle.radians(), 0.0, run);
+      see("impact_speed_ratio", std::max(0.0, impact->speed_ratio), 0.0, run);
+      see("impact_angle", impact->angle.radians(), 0.0, run);
     }
     if (!run.hood) continue;
-    ratio.see(std::max(0.0, run.hood->impact.speed_ratio), {}, run, kAtHood);
-    angle.see(run.hood->impact.angle.radians(), {}, run, kAtHood);
-  }
-  margin.set_in(measurements, "landing_margin");
-  if (all_land) {
-    ratio.set_in(measurements, "impact_speed_ratio");
-    angle.set_in(measurements, "impact_angle");
-  } else {
-    for (const char* const key : {"impact_speed_ratio", "impact_angle"})
-      measurements.set_missing(key, "a feed that lands: it flies over the start");
+    see("impact_speed_ratio", std::max(0.0, run.hood->impact.speed_ratio), {}, run, kAtHood);
+    see("impact_angle", run.hood->impact.angle.radians(), {}, run, kAtHood);
   }
 }
 
 void measure_discharge(const Design& design, const std::vector<ChuteCase>& cases,
                        Measurements& measurements) {
   if (!design.discharge) {
-    for (const char* const key : {"belt_match", "speed_into_belt"})
-      measurements.set_missing(key, "discharge: {belt_speed: 2.5 m/s}, the belt that takes the stream");
+    lack_all(measurements, {"belt_match", "speed_into_belt"},
+             "discharge: {belt_speed: 2.5 m/s}, the belt that takes the stream");
     return;
   }
-  WorstCase into(1.0);
-  const BeltLanding* worst = nullptr;
-  std::vector<std::pair<BeltLanding, const ChuteCase*>> landings;
   for (const ChuteCase& run : cases) {
-    if (run.motion.arrived() && enters(run.motion))
-      landings.emplace_back(belt_landing(design, run.motion), &run);
-  }
-  const ChuteCase* of = nullptr;
-  for (const auto& [landing, run] : landings) {
-    if (!landing.lands()) {
-      for (const char* const key : {"belt_match", "speed_into_belt"})
-        measurements.set_missing(
-            key, "a stream that lands: with " + case_text(*run) + " it moves away from its belt");
-      return;
+    const std::string place = case_text(run);
+    if (!arrives(run)) {
+      lack_all(measurements, {"belt_match", "speed_into_belt"}, missing_end(run));
+      continue;
     }
-    into.see(landing.speed_into, run->motion.distance(), *run);
-    if (worst != nullptr && std::fabs(landing.match - 1.0) <= std::fabs(worst->match - 1.0)) continue;
-    worst = &landing;
-    of = run;
+    const BeltLanding landing = belt_landing(design, run.motion);
+    if (!landing.lands()) {
+      lack_all(measurements, {"belt_match", "speed_into_belt"},
+               "a stream that lands: with " + place + " it moves away from its belt");
+      continue;
+    }
+    measurements.see("belt_match", landing.match, run.motion.distance(), place);
+    measurements.see("speed_into_belt", landing.speed_into, run.motion.distance(), place);
   }
-  into.set_in(measurements, "speed_into_belt");
-  if (worst == nullptr) return;
-  WorstCase match(1.0);
-  match.see(worst->match, of->motion.distance(), *of);
-  match.set_in(measurements, "belt_match");
 }
 
 /// Streams in the air are no track: no search keeps them clear of anything.
@@ -313,7 +291,6 @@ void measure_air(const Design& design, const Track& track, const std::vector<Chu
                  Measurements& measurements) {
   std::optional<HoodPassage> nominal;
   if (design.hood) nominal.emplace(hood_passage(design, track.motion.body()));
-  WorstCase closest(-1.0);
   std::size_t obstacles = 0;
   for (const ChuteCase& run : cases) {
     const auto flights =
@@ -321,13 +298,12 @@ void measure_air(const Design& design, const Track& track, const std::vector<Chu
     const auto approaches = flight_approaches(design, flights);
     obstacles = std::max(obstacles, approaches.size());
     for (const FlightApproach& near : approaches) {
-      closest.see(near.margin(), {}, run,
-                  std::string(to_text(near.kind)) + " by " + near.limit + ", " + length_text(near.at.x) +
-                      " out and " + length_text(-near.at.y) + " below the start, ");
+      measurements.see("air_clearance", near.margin(), {},
+                       std::string(to_text(near.kind)) + " by " + near.limit + ", " + length_text(near.at.x) +
+                           " out and " + length_text(-near.at.y) + " below the start, " + case_text(run));
     }
   }
-  measurements.set("obstacles_by_flights", static_cast<double>(obstacles));
-  closest.set_in(measurements, "air_clearance");
+  measurements.see("obstacles_by_flights", static_cast<double>(obstacles));
 }
 
 /// The speed that the material or its liner stands; none if nothing is known.
@@ -349,57 +325,69 @@ std::optional<double> speed_cap(const Design& design) {
 void measure_speed(const Design& design, const std::vector<ChuteCase>& cases, Measurements& measurements) {
   const std::optional<double> cap = speed_cap(design);
   if (!cap) {
-    measurements.set_missing("speed_over_cap",
-                             "stream: {material: ...} of the library, or one of your own with highest_speed");
+    measurements.lack("speed_over_cap",
+                      "stream: {material: ...} of the library, or one of your own with highest_speed");
     return;
   }
-  WorstCase fastest(1.0);
   for (const ChuteCase& run : cases) {
-    const MotionState state = run.motion.highest_speed();
-    if (enters(run.motion)) fastest.see(state.speed / *cap, state.arc_length, run);
-    if (run.hood) fastest.see(run.hood->motion.highest_speed().speed / *cap, {}, run, kAtHood);
+    Extremes fastest;
+    if (enters(run.motion)) {
+      const MotionState state = run.motion.highest_speed();
+      fastest.see({state.speed / *cap, state.arc_length, case_text(run)});
+    } else {
+      measurements.lack("speed_over_cap", missing_end(run));
+    }
+    if (run.hood) fastest.see({run.hood->motion.highest_speed().speed / *cap, {}, kAtHood + case_text(run)});
+    if (fastest.most()) measurements.see("speed_over_cap", *fastest.most());
   }
-  fastest.set_in(measurements, "speed_over_cap");
 }
 
-/// Faces converge where the channel is narrower than somewhere before; between its knots a width does not turn.
-void measure_narrowing(const BulkStream& stream, double length, Measurements& measurements) {
-  std::vector<double> places;
+/// Ascending places of a track between which its width is linear: its start, the knots and its finish [m].
+std::vector<double> width_places(const BulkStream& stream, double length) {
+  std::vector<double> places{0.0};
   for (const WidthAt& knot : stream.shape().width.knots()) {
     if (knot.at > 0.0 && knot.at < length) places.push_back(knot.at);
   }
   places.push_back(length);
+  return places;
+}
+
+/// Faces converge where the channel is narrower than somewhere before; between its knots a width does not turn.
+void measure_narrowing(const BulkStream& stream, double length, Measurements& measurements) {
   double widest = stream.width(0.0);
   double least = 1.0;
   std::optional<double> where;
-  for (const double at : places) {
+  for (const double at : width_places(stream, length)) {
     const double share = stream.width(at) / widest;
     widest = std::max(widest, stream.width(at));
     if (share >= least) continue;
     least = share;
     where = at;
   }
-  measurements.set("narrowing", least, where);
+  measurements.see("narrowing", least, where);
 }
 
 void measure_channel(const Design& design, const Track& track, Measurements& measurements) {
   const BulkStream& stream = *stream_of(track.motion.body());
-  const double narrowest = stream.shape().width.narrowest();
-  measure_narrowing(stream, track.centerline->length(), measurements);
+  const double length = track.centerline->length();
+  measure_narrowing(stream, length, measurements);
   if (design.stream->lump_size) {
-    measurements.set("width_over_lump", narrowest / *design.stream->lump_size);
+    const double lump = *design.stream->lump_size;
+    measurements.see("width_over_lump", stream.shape().width.narrowest() / lump);
+    for (const double at : width_places(stream, length))
+      measurements.see("width_over_lump", stream.width(at) / lump, at);
   } else {
-    measurements.set_missing("width_over_lump", "stream: {lump_size: 150 mm}");
+    measurements.lack("width_over_lump", "stream: {lump_size: 150 mm}");
   }
   const StreamChannel channel = stream_channel(design.cross_section.value()).value();
   const double density = design.stream->high_density.value_or(design.stream->bulk_density);
   const double full = density * design.gravity * channel.full_area();
-  measurements.set_missing("plugged_load", "to be shown by its designer: full of material it carries " +
-                                               rounded_text(full / 1e3, 3) + " kN on each metre");
-  measurements.set_missing("corner_radius", "to be looked at: the section has sharp inner corners");
-  measurements.set_missing("inspection_doors", "to be looked at");
-  measurements.set_missing("earthing_and_finish", "to be looked at");
-  measurements.set_missing("trim_allowance", "to be looked at: the model ends where the track ends");
+  measurements.lack("plugged_load", "to be shown by its designer: full of material it carries " +
+                                        rounded_text(full / 1e3, 3) + " kN on each metre");
+  measurements.lack("corner_radius", "to be looked at: the section has sharp inner corners");
+  measurements.lack("inspection_doors", "to be looked at");
+  measurements.lack("earthing_and_finish", "to be looked at");
+  measurements.lack("trim_allowance", "to be looked at: the model ends where the track ends");
 }
 
 }  // namespace
@@ -484,7 +472,9 @@ std::vector<WhatIfRide> what_if_rides(const Design& design, const CenterlinePtr&
 
 void measure_chute(const Design& design, const Track& track, Measurements& measurements) {
   if (!design.stream) return;
-  const std::vector<ChuteCase> cases = chute_cases(design, track.centerline);
+  std::vector<ChuteCase> cases = chute_cases(design, track.centerline);
+  // Of equals the first is told. Let that be the largest flow: at the start all are as fast as they enter.
+  std::reverse(cases.begin(), cases.end());
   measure_slopes(design, track, measurements);
   measure_arrivals(cases, measurements);
   measure_motion(design, cases, measurements);

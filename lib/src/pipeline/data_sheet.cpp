@@ -405,8 +405,8 @@ void add_verdicts(const std::vector<Judgement>& judgements, const PlaneBox& room
   const auto middle = rows.begin() + static_cast<std::ptrdiff_t>(first);
   sheet.tables.push_back(
       table_of({room.low.x, room.high.y},
-               "Verdicts, the worst over every friction and flow; \"look\": nothing to compute", widths,
-               header, {rows.begin(), middle}, text));
+               "Verdicts, the worst over every friction and flow; \"look\": cannot be judged", widths, header,
+               {rows.begin(), middle}, text));
   sheet.tables.push_back(table_of({room.low.x + half + kGap, room.high.y - 6.0}, "", widths, header,
                                   {middle, rows.end()}, text));
 }

@@ -2,10 +2,11 @@
 
 #include "glissade/core/math.hpp"
 
+#include "pipeline/ride_facts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,53 +16,50 @@
 namespace glissade::pipeline {
 namespace {
 
-/// The most of something over all gates and conditions.
-void measure_worst(const GateTable& table, const std::function<double(const GateRide&)>& value,
-                   const std::function<std::optional<double>(const GateRide&)>& place, double sign,
-                   std::string_view key, Measurements& measurements) {
-  const GateRide* worst = nullptr;
-  std::string condition_of_worst;
+/// The take-off speeds from the fastest and from the slowest gate of each condition.
+void measure_take_off(const GateTable& table, Measurements& measurements) {
   for (const GateCondition& condition : table.conditions) {
+    Extremes speeds;
     for (const GateRide& ride : condition.rides) {
-      if (worst != nullptr && !(sign * value(ride) > sign * value(*worst))) continue;
-      worst = &ride;
-      condition_of_worst = condition.name;
+      const RideFacts facts = facts_of(ride, place_of(table, condition, ride));
+      see_exit_speed(facts, speeds);
+      if (facts.arrived()) continue;
+      measurements.lack("lowest_take_off_speed", missing_arrival(facts));
+      // The speed from a higher gate, if there is one, stands for the highest.
+      if (&ride == &condition.rides.back())
+        measurements.lack("highest_take_off_speed", missing_arrival(facts));
     }
+    if (!speeds.least()) continue;
+    measurements.see("highest_take_off_speed", *speeds.most());
+    measurements.see("lowest_take_off_speed", *speeds.least());
   }
-  if (worst == nullptr) return;
-  std::string name = "gate " + std::to_string(worst->gate.number);
-  if (table.conditions.size() > 1) name += ", " + condition_of_worst;
-  measurements.set(key, value(*worst), place(*worst), name);
 }
 
-void measure_gates(const GateTable& table, Measurements& measurements) {
-  const auto nowhere = [](const GateRide& /*ride*/) { return std::optional<double>(); };
-  measure_worst(
-      table, [](const GateRide& ride) { return ride.highest_load; },
-      [](const GateRide& ride) { return std::optional(ride.highest_load_at); }, 1.0, "highest_normal_load",
-      measurements);
-  measure_worst(
-      table, [](const GateRide& ride) { return ride.lowest_load; }, nowhere, -1.0, "lowest_normal_load",
-      measurements);
-  measure_worst(
-      table, [](const GateRide& ride) { return ride.highest_radial; },
-      [](const GateRide& ride) { return std::optional(ride.highest_radial_at); }, 1.0,
-      "highest_radial_acceleration", measurements);
-  measure_worst(
-      table, [](const GateRide& ride) { return ride.speed_at_edge; }, nowhere, 1.0, "highest_take_off_speed",
-      measurements);
-  measure_worst(
-      table, [](const GateRide& ride) { return ride.speed_at_edge; }, nowhere, -1.0, "lowest_take_off_speed",
-      measurements);
-  if (table.gates.size() > 1) measurements.set("gate_step_height", table.largest_height_step);
+/// The friction of a range from the highest gate, where that is the start of the track.
+void measure_take_off_of_range(const Track& track, Measurements& measurements) {
+  if (track.gates->gates.empty() || track.gates->gates.back().from_start != 0.0) return;
+  for (const RideFacts& facts : rides_from_start(track)) {
+    Extremes speed;
+    see_exit_speed(facts, speed);
+    if (speed.most()) measurements.see("highest_take_off_speed", *speed.most());
+    if (!facts.arrived()) measurements.lack("highest_take_off_speed", missing_arrival(facts));
+  }
 }
 
-void set_or_ask(Measurements& measurements, std::string_view key, const std::optional<double>& value,
+void measure_gates(const Track& track, Measurements& measurements) {
+  const GateTable& table = *track.gates;
+  measure_take_off(table, measurements);
+  measure_take_off_of_range(track, measurements);
+  for (std::size_t i = 1; i < table.positions.size(); ++i)
+    measurements.see("gate_step_height", table.positions[i].z - table.positions[i - 1].z);
+}
+
+void see_or_ask(Measurements& measurements, std::string_view key, const std::optional<double>& value,
                 const char* missing) {
   if (value) {
-    measurements.set(key, *value);
+    measurements.see(key, *value);
   } else {
-    measurements.set_missing(key, missing);
+    measurements.lack(key, missing);
   }
 }
 
@@ -126,10 +124,10 @@ Letters letters_of(const Design& design, const Track& track) {
 void measure_letters(const Design& design, const Track& track, Measurements& measurements) {
   const Letters letters = letters_of(design, track);
   const HillDesign& hill = design.hill;
-  measurements.set("in_run_slope_angle", letters.gamma);
-  measurements.set("table_slope_angle", letters.alpha);
-  measurements.set("table_length", letters.t);
-  measurements.set("transition_radius", letters.r1);
+  measurements.see("in_run_slope_angle", letters.gamma);
+  measurements.see("table_slope_angle", letters.alpha);
+  measurements.see("table_length", letters.t);
+  measurements.see("transition_radius", letters.r1);
   constexpr const char* kSpeed = "hill: {design_speed: 27 m/s}, v0 of the norm";
   std::optional<double> table_time;
   std::optional<double> radial;
@@ -137,25 +135,29 @@ void measure_letters(const Design& design, const Track& track, Measurements& mea
     table_time = letters.t / *hill.design_speed;
     radial = *hill.design_speed * *hill.design_speed / letters.r1;
   }
-  set_or_ask(measurements, "table_time", table_time, kSpeed);
-  set_or_ask(measurements, "design_radial_acceleration", radial, kSpeed);
+  see_or_ask(measurements, "table_time", table_time, kSpeed);
+  see_or_ask(measurements, "design_radial_acceleration", radial, kSpeed);
   std::optional<double> ratio;
   if (hill.table_height && hill.construction_point) ratio = *hill.table_height / *hill.construction_point;
-  set_or_ask(measurements, "table_height_ratio", ratio,
+  see_or_ask(measurements, "table_height_ratio", ratio,
              "hill: {table_height: 3.2 m, construction_point: 125 m}, s and w of the certificate");
   std::optional<double> area;
   if (letters.start_area) area = *letters.start_area / letters.longest;
-  set_or_ask(measurements, "start_area_ratio", area,
+  see_or_ask(measurements, "start_area_ratio", area,
              "es, or e2, in the centerline, or a start_area of the gates");
-  measurements.set("curvature_step_at_e1", track.centerline->at(letters.e1).curvature, letters.e1, "E1");
+  measurements.see("curvature_step_at_e1", track.centerline->at(letters.e1).curvature, letters.e1, "E1");
 }
 
 /// What presses a jumper down beyond the weight on the table.
 void measure_load(const Design& design, double alpha, Measurements& measurements) {
-  const Measurements::Entry* const load = measurements.find("highest_normal_load");
-  if (load == nullptr || !load->value) return;
-  measurements.set("load_above_table_weight", *load->value - design.gravity * math::cos(alpha),
-                   load->arc_length, load->place);
+  const Extremes* const load = measurements.find("highest_normal_load");
+  if (load == nullptr) return;
+  for (const std::optional<MeasuredValue>& extreme : {load->least(), load->most()}) {
+    if (!extreme) continue;
+    measurements.see("load_above_table_weight", extreme->value - design.gravity * math::cos(alpha),
+                     extreme->arc_length, extreme->place);
+  }
+  if (load->missing()) measurements.lack("load_above_table_weight", *load->missing());
 }
 
 void measure_grooves(const Design& design, Measurements& measurements) {
@@ -163,13 +165,13 @@ void measure_grooves(const Design& design, Measurements& measurements) {
       design.cross_section ? std::get_if<section::TrackGroove>(&*design.cross_section) : nullptr;
   if (grooves == nullptr) {
     for (const char* const key : {"track_spacing", "track_groove_width", "track_groove_depth"}) {
-      measurements.set_missing(key, "cross_section: {kind: track-groove}, the grooves that skis run in");
+      measurements.lack(key, "cross_section: {kind: track-groove}, the grooves that skis run in");
     }
     return;
   }
-  measurements.set("track_spacing", grooves->groove_spacing);
-  measurements.set("track_groove_width", grooves->groove_width);
-  measurements.set("track_groove_depth", grooves->groove_depth);
+  measurements.see("track_spacing", grooves->groove_spacing);
+  measurements.see("track_groove_width", grooves->groove_width);
+  measurements.see("track_groove_depth", grooves->groove_depth);
 }
 
 }  // namespace
@@ -178,23 +180,22 @@ void measure_in_run(const Design& design, const Track& track, Measurements& meas
   const HillDesign& hill = design.hill;
   const bool in_run = is_in_run(design);
   if (in_run) {
-    set_or_ask(measurements, "hill_size", hill.size, "hill: {size: 142 m}, HS of the certificate");
-    set_or_ask(measurements, "construction_point", hill.construction_point,
+    see_or_ask(measurements, "hill_size", hill.size, "hill: {size: 142 m}, HS of the certificate");
+    see_or_ask(measurements, "construction_point", hill.construction_point,
                "hill: {construction_point: 125 m}, w of the certificate");
-    set_or_ask(measurements, "hill_height", hill.height, "hill: {height: 62 m}, zU of the certificate");
+    see_or_ask(measurements, "hill_height", hill.height, "hill: {height: 62 m}, zU of the certificate");
   }
   if (in_run) {
     measure_letters(design, track, measurements);
     measure_grooves(design, measurements);
   }
   if (track.gates) {
-    measure_gates(*track.gates, measurements);
+    measure_gates(track, measurements);
   } else {
     for (const char* const key : {"gate_step_height", "highest_take_off_speed", "lowest_take_off_speed"}) {
-      measurements.set_missing(key, "gates: {count: 49}");
+      measurements.lack(key, "gates: {count: 49}");
     }
   }
-  // After the gates, whose load is that of the hill.
   if (in_run) {
     measure_load(design, track.centerline->slope_angle(track.centerline->length()), measurements);
   }

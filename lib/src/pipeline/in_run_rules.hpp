@@ -4,8 +4,8 @@
 
 namespace glissade::pipeline {
 
-/// Adds what rules of ski jumps ask: the letters of the certificate, the hill, and the gates at their worst. Of a track
-/// ridden from gates the loads are those from them.
+/// Adds what rules of ski jumps ask: the letters of the certificate, the hill, and the gates in every condition.
+/// @param measurements  which hold what every ride has: of the loads is what they are above the weight on the table
 void measure_in_run(const Design& design, const Track& track, Measurements& measurements);
 
 }  // namespace glissade::pipeline

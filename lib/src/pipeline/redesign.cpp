@@ -50,11 +50,7 @@ void tighten(std::optional<RuledBound>& bound, double value, const Rule& rule, d
 
 bool applies(const Rule& rule, const Measurements& measurements) {
   return std::all_of(rule.when.begin(), rule.when.end(), [&](const RuleCondition& condition) {
-    const Measurements::Entry* const entry = measurements.find(condition.quantity);
-    if (entry == nullptr || !entry->value) return false;
-    const Range& range = condition.range;
-    return *entry->value >= range.lowest.value_or(-HUGE_VAL) &&
-           *entry->value <= range.highest.value_or(HUGE_VAL);
+    return is_met(condition, measurements).value_or(false);
   });
 }
 
@@ -593,20 +589,21 @@ namespace {
 std::optional<RuledBound> growth_of_radius(const Design& design, const Measurements& measurements,
                                            double speed) {
   constexpr double kRounding = 1e-9;  // rounding: of a bound, as rules count what lies at it
-  const Measurements::Entry* const radial = measurements.find("highest_radial_acceleration");
-  if (radial == nullptr || !radial->value) return {};
+  const Extremes* const bend = measurements.find("highest_radial_acceleration");
+  if (bend == nullptr || !bend->most()) return {};
+  const double radial = bend->most()->value;
   std::optional<RuledBound> growth;
   for (const Rule& rule : design.rules.in_force) {
     const bool of_bend = rule.quantity == "highest_radial_acceleration" ||
                          rule.quantity == "highest_normal_load" || rule.quantity == "load_above_table_weight";
-    const Measurements::Entry* const entry = of_bend ? measurements.find(rule.quantity) : nullptr;
-    if (entry == nullptr || !entry->value || !rule.bound.highest || !applies(rule, measurements)) continue;
+    const Extremes* const load = of_bend ? measurements.find(rule.quantity) : nullptr;
+    if (load == nullptr || !load->most() || !rule.bound.highest || !applies(rule, measurements)) continue;
     // What curvature adds to the load goes with 1/r1.
-    const double excess = *entry->value - *rule.bound.highest;
-    const double allowed = *radial->value - excess;
+    const double excess = load->most()->value - *rule.bound.highest;
+    const double allowed = radial - excess;
     if (!(excess > kRounding * *rule.bound.highest) || !(allowed > 0.0)) continue;
     // The squared speed of that ride grows by about as much as that of the one that counts.
-    tighten(growth, *radial->value / allowed, rule, 1.0, 2.0 * speed / allowed);
+    tighten(growth, radial / allowed, rule, 1.0, 2.0 * speed / allowed);
   }
   return growth;
 }

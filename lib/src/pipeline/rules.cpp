@@ -8,6 +8,7 @@
 #include "pipeline/chute_rules.hpp"
 #include "pipeline/extremes.hpp"
 #include "pipeline/in_run_rules.hpp"
+#include "pipeline/ride_facts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,44 +21,22 @@ using namespace pipeline;
 
 namespace {
 
-/// Keeps the worst of several rides, with the ride that it is of.
-class Worst {
- public:
-  void see(double value, double arc_length, const std::string& place) {
-    if (seen_ && !(value > value_)) return;
-    seen_ = true;
-    value_ = value;
-    arc_length_ = arc_length;
-    place_ = place;
-  }
-  /// @param sign  -1 for what was seen negated, because the lowest is the worst
-  void set_in(Measurements& measurements, std::string_view key, double sign = 1.0) const {
-    if (seen_) measurements.set(key, sign * value_, arc_length_, place_);
-  }
-
- private:
-  bool seen_ = false;
-  double value_ = 0.0;
-  double arc_length_ = 0.0;
-  std::string place_;
-};
-
 void measure_shape(const Track& track, Measurements& measurements) {
   const Centerline& centerline = *track.centerline;
   const double length = centerline.length();
-  measurements.set("run", std::fabs(track.endpoints.run));
-  measurements.set("drop", track.endpoints.drop);
-  measurements.set("arc_length", length);
-  measurements.set("mean_slope_angle", math::atan2(track.endpoints.drop, std::fabs(track.endpoints.run)));
-  measurements.set("entry_slope_angle", centerline.slope_angle(0.0), 0.0);
-  measurements.set("exit_slope_angle", centerline.slope_angle(length), length);
+  measurements.see("run", std::fabs(track.endpoints.run));
+  measurements.see("drop", track.endpoints.drop);
+  measurements.see("arc_length", length);
+  measurements.see("mean_slope_angle", math::atan2(track.endpoints.drop, std::fabs(track.endpoints.run)));
+  measurements.see("entry_slope_angle", centerline.slope_angle(0.0), 0.0);
+  measurements.see("exit_slope_angle", centerline.slope_angle(length), length);
   const auto slope = [&](double s) { return centerline.slope_angle(s); };
   const Extreme steepest = highest_along(centerline, slope);
-  measurements.set("steepest_slope_angle", steepest.value, steepest.at);
+  measurements.see("steepest_slope_angle", steepest.value, steepest.at);
   const Extreme flattest = highest_along(centerline, [&](double s) { return -slope(s); });
-  measurements.set("flattest_slope_angle", -flattest.value, flattest.at);
+  measurements.see("flattest_slope_angle", -flattest.value, flattest.at);
   if (centerline.unbounded_curvature_at_start()) {
-    measurements.set("smallest_valley_radius", 0.0, 0.0);
+    measurements.see("smallest_valley_radius", 0.0, 0.0);
     return;
   }
   const auto curvature = [&](double s) { return centerline.direction(s).curvature; };
@@ -66,41 +45,9 @@ void measure_shape(const Track& track, Measurements& measurements) {
   };
   const Extreme valley = highest_along(centerline, curvature);
   const Extreme crest = highest_along(centerline, [&](double s) { return -curvature(s); });
-  measurements.set("smallest_valley_radius", radius_of(valley.value), valley.at);
-  measurements.set("smallest_crest_radius", radius_of(crest.value), crest.at);
-  measurements.set("least_curvature", 0.0 - crest.value, crest.at);  // never -0
-}
-
-void measure_rides(const Track& track, Measurements& measurements) {
-  Worst speed;
-  Worst exit;
-  Worst time;
-  Worst load;
-  Worst lightness;
-  Worst radial;
-  const std::vector<LevelRide> rides = track.rides();
-  for (const LevelRide& ride : rides) {
-    const Motion& motion = *ride.motion;
-    if (!enters(motion)) continue;
-    const std::string place = rides.size() > 1 ? std::string(to_text(ride.level)) + " friction" : "";
-    const MotionState fastest = motion.highest_speed();
-    const MotionState heaviest = motion.highest_load();
-    const MotionState lightest = motion.lowest_load();
-    speed.see(fastest.speed, fastest.arc_length, place);
-    load.see(heaviest.normal_load, heaviest.arc_length, place);
-    lightness.see(-lightest.normal_load, lightest.arc_length, place);
-    const Extreme most = highest_radial_acceleration(motion);
-    radial.see(most.value, most.at, place);
-    if (!motion.arrived()) continue;
-    exit.see(motion.exit_speed(), motion.distance(), place);
-    time.see(motion.travel_time(), motion.distance(), place);
-  }
-  speed.set_in(measurements, "highest_speed");
-  exit.set_in(measurements, "exit_speed");
-  time.set_in(measurements, "travel_time");
-  load.set_in(measurements, "highest_normal_load");
-  lightness.set_in(measurements, "lowest_normal_load", -1.0);
-  radial.set_in(measurements, "highest_radial_acceleration");
+  measurements.see("smallest_valley_radius", radius_of(valley.value), valley.at);
+  measurements.see("smallest_crest_radius", radius_of(crest.value), crest.at);
+  measurements.see("least_curvature", 0.0 - crest.value, crest.at);  // never -0
 }
 
 }  // namespace
@@ -108,7 +55,7 @@ void measure_rides(const Track& track, Measurements& measurements) {
 Measurements rule_measurements(const Design& design, const Track& track) {
   Measurements measurements;
   measure_shape(track, measurements);
-  measure_rides(track, measurements);
+  for (const RideFacts& ride : all_rides(track)) measure_ride(ride, measurements);
   measure_in_run(design, track, measurements);
   measure_chute(as_solved(design, track), track, measurements);
   return measurements;

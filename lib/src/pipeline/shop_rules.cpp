@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,9 +15,16 @@ namespace {
 /// One place as the rules of a track are judged: by what was measured there.
 Measurements at_place(const ShopMeasurement& measured) {
   Measurements measurements;
-  if (measured.thickness) measurements.set("part_thickness", *measured.thickness);
-  if (measured.density) measurements.set("part_density", *measured.density);
-  measurements.set(measured.quantity, measured.in_units());
+  const auto see = [&](const char* key, const std::optional<double>& value) {
+    if (value) {
+      measurements.see(key, *value);
+    } else {
+      measurements.lack(key, "");
+    }
+  };
+  see("part_thickness", measured.thickness);
+  see("part_density", measured.density);
+  measurements.see(measured.quantity, measured.in_units());
   return measurements;
 }
 
@@ -63,8 +69,18 @@ ShopCheck check_at(const Judgement& judgement, const ShopMeasurement& measured) 
 
 /// How well a place keeps a rule: its margin, of a bound other than 0 as a share of it.
 double room_of(const Judgement& judgement) {
-  if (!judgement.margin) return std::numeric_limits<double>::infinity();
+  if (!judgement.margin) return 0.0;
   return *judgement.bound == 0.0 ? *judgement.margin : *judgement.margin / std::fabs(*judgement.bound);
+}
+
+/// Whether a place says more against a part than another: broken before not known before kept, then the one with less room.
+bool is_worse(const Judgement& one, const Judgement& other) {
+  const auto rank = [](const Judgement& judgement) {
+    if (judgement.verdict == RuleVerdict::pass) return 0;
+    return judgement.verdict == RuleVerdict::cannot_be_judged ? 1 : 2;
+  };
+  if (rank(one) != rank(other)) return rank(one) > rank(other);
+  return room_of(one) < room_of(other);
 }
 
 }  // namespace
@@ -78,7 +94,7 @@ std::vector<ShopCheck> judge_shop(const std::vector<Rule>& rules, const Workshop
       if (measured.quantity != rule.quantity) continue;
       measured_somewhere = true;
       for (Judgement& judgement : judge({rule}, at_place(measured))) {
-        if (worst_place && room_of(judgement) >= room_of(worst_place->first)) continue;
+        if (worst_place && !is_worse(judgement, worst_place->first)) continue;
         worst_place.emplace(std::move(judgement), &measured);
       }
     }

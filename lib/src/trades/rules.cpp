@@ -25,58 +25,65 @@ double allowance(double bound) {
   return kRuleAccuracy * std::max(std::fabs(bound), kLeastScale);
 }
 
-/// Whether a condition is met; none where that is not known.
-std::optional<bool> holds(const RuleCondition& condition, const Measurements& measurements) {
-  const Measurements::Entry* const entry = measurements.find(condition.quantity);
-  if (entry == nullptr || !entry->value) return {};
-  const Range& range = condition.range;
-  return (!range.lowest || *entry->value >= *range.lowest - allowance(*range.lowest)) &&
-         (!range.highest || *entry->value <= *range.highest + allowance(*range.highest));
-}
-
-std::string reason_of(const std::string& quantity, const Measurements::Entry* entry) {
+std::string reason_of(const std::string& quantity, const Extremes* extremes) {
   const std::string label(rule_quantity(quantity) == nullptr ? quantity : rule_quantity(quantity)->label);
-  if (entry == nullptr) return "this track has no " + label;
-  return entry->missing.empty() ? label + " is not known" : "the " + label + " needs " + entry->missing;
+  if (extremes == nullptr) return "this track has no " + label;
+  const std::string missing = extremes->missing().value_or("");
+  return missing.empty() ? label + " is not known" : "the " + label + " needs " + missing;
 }
 
-/// The side of a bound that is broken, or else the one next to the value.
-void compare(Judgement& judgement, double value) {
-  const Range& range = judgement.rule.bound;
-  const auto margin_to = [&](double bound, bool highest) { return highest ? bound - value : value - bound; };
-  const auto take = [&](double bound, bool highest) {
-    const double margin = margin_to(bound, highest);
-    if (judgement.margin && *judgement.margin <= margin) return;
-    judgement.bound = bound;
-    judgement.bound_is_highest = highest;
-    judgement.margin = margin;
-  };
-  if (range.lowest) take(*range.lowest, false);
-  if (range.highest) take(*range.highest, true);
-  const bool kept = *judgement.margin >= -allowance(*judgement.bound);
-  judgement.verdict = kept                    ? RuleVerdict::pass
-                      : judgement.rule.advice ? RuleVerdict::warn
-                                              : RuleVerdict::fail;
+/// One side of a rule, with the extreme that would break it first.
+struct Side {
+  const MeasuredValue* extreme = nullptr;
+  double bound = 0.0;
+  bool is_highest = true;
+
+  [[nodiscard]] double margin() const { return is_highest ? bound - extreme->value : extreme->value - bound; }
+  [[nodiscard]] bool is_kept() const { return margin() >= -allowance(bound); }
+};
+
+/// The side that is broken, or else the one nearest to that.
+/// @param extremes  of which something was seen
+Side nearest_to_breaking(const Range& range, const Extremes& extremes) {
+  std::vector<Side> sides;
+  if (range.lowest) sides.push_back({&*extremes.least(), *range.lowest, false});
+  if (range.highest) sides.push_back({&*extremes.most(), *range.highest, true});
+  return *std::min_element(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.is_kept() == b.is_kept() ? a.margin() < b.margin() : b.is_kept();
+  });
 }
 
 std::optional<Judgement> judged(const Rule& rule, const Measurements& measurements) {
   Judgement judgement;
   judgement.rule = rule;
   for (const RuleCondition& condition : rule.when) {
-    const std::optional<bool> met = holds(condition, measurements);
+    const std::optional<bool> met = is_met(condition, measurements);
     if (met && !*met) return {};
     if (met || !judgement.reason.empty()) continue;
     judgement.reason = reason_of(condition.quantity, measurements.find(condition.quantity));
   }
-  const Measurements::Entry* const entry = measurements.find(rule.quantity);
-  if (entry == nullptr || !entry->value || std::isnan(*entry->value)) {
-    if (judgement.reason.empty()) judgement.reason = reason_of(rule.quantity, entry);
+  const bool applies = judgement.reason.empty();
+  const Extremes* const extremes = measurements.find(rule.quantity);
+  if (extremes == nullptr || !extremes->least()) {
+    if (applies) judgement.reason = reason_of(rule.quantity, extremes);
     return judgement;
   }
-  judgement.value = entry->value;
-  judgement.arc_length = entry->arc_length;
-  judgement.place = entry->place;
-  if (judgement.reason.empty()) compare(judgement, *entry->value);
+  const Side side = nearest_to_breaking(rule.bound, *extremes);
+  judgement.value = side.extreme->value;
+  judgement.arc_length = side.extreme->arc_length;
+  judgement.place = side.extreme->place;
+  if (!applies) return judgement;
+  // What is broken is broken whatever else there is; kept it is only if all is known.
+  if (side.is_kept() && extremes->missing()) {
+    judgement.reason = reason_of(rule.quantity, extremes);
+    return judgement;
+  }
+  judgement.bound = side.bound;
+  judgement.bound_is_highest = side.is_highest;
+  judgement.margin = side.margin();
+  judgement.verdict = side.is_kept() ? RuleVerdict::pass
+                      : rule.advice  ? RuleVerdict::warn
+                                     : RuleVerdict::fail;
   return judgement;
 }
 
@@ -104,20 +111,51 @@ const RuleQuantity* rule_quantity(std::string_view key) {
   return nullptr;
 }
 
-void Measurements::set(std::string_view key, double value, std::optional<double> arc_length,
+void Extremes::see(MeasuredValue value) {
+  if (std::isnan(value.value)) {
+    lack("");
+    return;
+  }
+  if (!most_ || value.value > most_->value) most_ = value;
+  if (!least_ || value.value < least_->value) least_ = std::move(value);
+}
+
+void Extremes::lack(std::string missing) {
+  if (!missing_) missing_ = std::move(missing);
+}
+
+Extremes& Measurements::of(std::string_view key) {
+  require_quantity(key);
+  return extremes_[std::string(key)];
+}
+
+void Measurements::see(std::string_view key, double value, std::optional<double> arc_length,
                        std::string place) {
-  require_quantity(key);
-  entries_[std::string(key)] = {value, arc_length, std::move(place), {}};
+  see(key, MeasuredValue{value, arc_length, std::move(place)});
 }
 
-void Measurements::set_missing(std::string_view key, std::string missing) {
-  require_quantity(key);
-  entries_[std::string(key)] = {{}, {}, {}, std::move(missing)};
+void Measurements::see(std::string_view key, MeasuredValue value) {
+  of(key).see(std::move(value));
 }
 
-const Measurements::Entry* Measurements::find(std::string_view key) const {
-  const auto found = entries_.find(key);
-  return found == entries_.end() ? nullptr : &found->second;
+void Measurements::lack(std::string_view key, std::string missing) {
+  of(key).lack(std::move(missing));
+}
+
+const Extremes* Measurements::find(std::string_view key) const {
+  const auto found = extremes_.find(key);
+  return found == extremes_.end() ? nullptr : &found->second;
+}
+
+std::optional<bool> is_met(const RuleCondition& condition, const Measurements& measurements) {
+  const Extremes* const extremes = measurements.find(condition.quantity);
+  if (extremes == nullptr || !extremes->least()) return {};
+  const Range& range = condition.range;
+  const bool meets =
+      (!range.lowest || extremes->most()->value >= *range.lowest - allowance(*range.lowest)) &&
+      (!range.highest || extremes->least()->value <= *range.highest + allowance(*range.highest));
+  if (!meets && extremes->missing()) return {};
+  return meets;
 }
 
 std::string_view to_text(RuleVerdict verdict) {

@@ -9,8 +9,9 @@
 
 namespace glissade {
 
-/// Measures on a track, over every friction of its design, what rules may bound; what a design does not tell is
-/// missing with the key that would tell it.
+/// Measures on a track what rules may bound: the extremes over every friction of its design and every gate in every condition.
+/// What a design does not tell is missing with the key that would tell it; a ride that does not arrive lacks what only one that
+/// does has, with its name and end. One that stalls has no exit speed and takes endless time.
 [[nodiscard]] Measurements rule_measurements(const Design& design, const Track& track);
 
 /// Holds the rules of a design against its track.

@@ -81,27 +81,57 @@ struct RuleSet {
   std::vector<Rule> rules;
 };
 
-/// The values of a track that rules ask about, each with its place, or why it is not known.
-class Measurements {
- public:
-  /// What was measured of one quantity.
-  struct Entry {
-    std::optional<double> value;       ///< SI, rad; may be infinite
-    std::optional<double> arc_length;  ///< where [m]
-    std::string place;                 ///< the same for people: "gate 49, slow"; may be empty
-    std::string missing;               ///< without a value: what would have to be known
-  };
+/// A value of a quantity, with its place.
+struct MeasuredValue {
+  double value = 0.0;                     ///< SI, rad; may be infinite
+  std::optional<double> arc_length = {};  ///< where [m]
+  std::string place = {};                 ///< the same for people: "gate 49, slow"; may be empty
+};
 
-  /// @throws InternalError if there is no quantity of that key
-  void set(std::string_view key, double value, std::optional<double> arc_length = {}, std::string place = {});
-  /// Nothing is known, and this is what is missing: "hill: {size: ...}".
-  void set_missing(std::string_view key, std::string missing);
-  /// @return null for a quantity that nobody measured
-  [[nodiscard]] const Entry* find(std::string_view key) const;
+/// The extremes of a quantity over everything that has it: each ride, each gate, each case. A `lowest` of a rule is broken
+/// first by the least of them, a `highest` by the greatest.
+class Extremes {
+ public:
+  /// Of equals the first is kept. A value that is no number counts as one that is not known.
+  void see(MeasuredValue value);
+  /// Something has no value: a ride that does not arrive, a key that the design leaves out. What the others say is then not all.
+  /// @param missing  what would have to be known, told of the first: "hill: {size: 142 m}"; may be empty
+  void lack(std::string missing);
+
+  /// @return none where nothing was seen
+  [[nodiscard]] const std::optional<MeasuredValue>& least() const noexcept { return least_; }
+  [[nodiscard]] const std::optional<MeasuredValue>& most() const noexcept { return most_; }
+  /// @return what is missing; none where everything has a value
+  [[nodiscard]] const std::optional<std::string>& missing() const noexcept { return missing_; }
 
  private:
-  std::map<std::string, Entry, std::less<>> entries_;
+  std::optional<MeasuredValue> least_;
+  std::optional<MeasuredValue> most_;
+  std::optional<std::string> missing_;
 };
+
+/// What was measured of the quantities that rules ask about.
+class Measurements {
+ public:
+  /// One value more of a quantity; what was seen of it before stays.
+  /// @throws InternalError if there is no quantity of that key
+  void see(std::string_view key, double value, std::optional<double> arc_length = {}, std::string place = {});
+  void see(std::string_view key, MeasuredValue value);
+  /// As Extremes::lack().
+  /// @throws InternalError as see()
+  void lack(std::string_view key, std::string missing);
+  /// @return null for a quantity of which nothing was told
+  [[nodiscard]] const Extremes* find(std::string_view key) const;
+
+ private:
+  [[nodiscard]] Extremes& of(std::string_view key);
+
+  std::map<std::string, Extremes, std::less<>> extremes_;
+};
+
+/// @return whether a condition is met, of a quantity that several rides have: whether what lies between its extremes meets
+///         it somewhere; none where that is not known
+[[nodiscard]] std::optional<bool> is_met(const RuleCondition& condition, const Measurements& measurements);
 
 enum class RuleVerdict { pass, warn, fail, cannot_be_judged };
 
@@ -116,8 +146,8 @@ inline constexpr double kRuleAccuracy = 1e-6;
 struct Judgement {
   Rule rule;
   RuleVerdict verdict = RuleVerdict::cannot_be_judged;
-  std::optional<double> value;       ///< SI, rad
-  std::optional<double> bound;       ///< the side that is broken or next to the value
+  std::optional<double> value;       ///< the extreme that is nearest to breaking the rule; SI, rad
+  std::optional<double> bound;       ///< the side that it breaks or is next to
   bool bound_is_highest = true;      ///< of `bound`
   std::optional<double> margin;      ///< from the value to `bound`, negative where it is broken
   std::optional<double> arc_length;  ///< where [m]
@@ -125,7 +155,8 @@ struct Judgement {
   std::string reason;                ///< why it cannot be judged; otherwise empty
 };
 
-/// Holds rules against what was measured; a rule whose condition is not met is left out.
+/// Holds each side of each rule against the extreme that is nearest to breaking it; a rule whose condition is not met is left
+/// out. One that nothing breaks cannot be judged where a value is missing.
 [[nodiscard]] std::vector<Judgement> judge(const std::vector<Rule>& rules, const Measurements& measurements);
 
 /// @return the worst verdict; pass if there is nothing to judge. A rule that cannot be judged counts less than a

@@ -45,10 +45,17 @@ GateRide ridden(const CenterlinePtr& track, const Gate& gate, const Body& body, 
   GateRide ride;
   ride.gate = gate;
   ride.arrived = motion.arrived();
+  ride.end = ride_end(motion);
+  ride.ended_at = gate.from_start + motion.distance();
   const MotionState heaviest = motion.highest_load();
   ride.highest_load = heaviest.normal_load;
   ride.highest_load_at = gate.from_start + heaviest.arc_length;
-  ride.lowest_load = motion.lowest_load().normal_load;
+  const MotionState lightest = motion.lowest_load();
+  ride.lowest_load = lightest.normal_load;
+  ride.lowest_load_at = gate.from_start + lightest.arc_length;
+  const MotionState fastest = motion.highest_speed();
+  ride.highest_speed = fastest.speed;
+  ride.highest_speed_at = gate.from_start + fastest.arc_length;
   add_radial(motion, gate.from_start, ride);
   if (!ride.arrived) return ride;
   ride.travel_time = motion.travel_time();

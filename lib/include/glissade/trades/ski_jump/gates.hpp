@@ -39,7 +39,9 @@ struct SpeedSlopes {
 /// The ride of one body from one gate.
 struct GateRide {
   Gate gate;
-  bool arrived = false;        ///< otherwise only the loads are told
+  bool arrived = false;  ///< otherwise of times and speeds only the highest speed is told
+  RideEnd end = RideEnd::arrived;
+  double ended_at = 0.0;       ///< arc length from the start of the track [m]
   double travel_time = 0.0;    ///< from the gate to the edge [s]
   double speed_at_edge = 0.0;  ///< [m/s]
   /// [m/s]; none where the ride does not arrive or does not pass the place, which lies at the gate or above it
@@ -48,6 +50,9 @@ struct GateRide {
   double highest_load = 0.0;          ///< per unit mass [m/s^2]
   double highest_load_at = 0.0;       ///< arc length from the start of the track [m]
   double lowest_load = 0.0;           ///< [m/s^2]
+  double lowest_load_at = 0.0;        ///< arc length from the start of the track [m]
+  double highest_speed = 0.0;         ///< [m/s]
+  double highest_speed_at = 0.0;      ///< arc length from the start of the track [m]
   double highest_radial = 0.0;        ///< kappa u^2 [m/s^2]
   double highest_radial_at = 0.0;     ///< arc length from the start of the track [m]
 };
