@@ -27,7 +27,7 @@ std::string line_of(const Judgement& judgement) {
   std::string text = verdict_text(judgement.verdict) + ": " + rule.id + ", " +
                      std::string(rule_quantity(rule.quantity)->label);
   if (judgement.value) text += " " + measured_text(judgement);
-  return text + ", " + marked_bound_text(rule);
+  return text + ", " + marked_bound_text(judgement);
 }
 
 std::string counted(std::size_t count, const std::string& what) {
@@ -81,7 +81,7 @@ std::string verdicts_table(const std::vector<Judgement>& judgements) {
   Table table({"rule", "verdict", "value", "bound", "certainty"});
   for (const Judgement& judgement : judgements) {
     table.add({judgement.rule.id, std::string(to_text(judgement.verdict)), measured_text(judgement),
-               bound_text(judgement.rule), certainty_text(judgement.rule.certainty)});
+               bound_text(judgement.rule, digits_of(judgement)), certainty_text(judgement.rule.certainty)});
   }
   std::string text = table.text();
   for (const std::string& line : open_questions(judgements)) {

@@ -383,6 +383,24 @@ TEST_CASE("the examples of docs/rules.md read as they stand") {
   CHECK(sets == 1);
 }
 
+TEST_CASE("a value that breaks its bound by little does not read like it") {
+  Rule rule;
+  rule.id = "own.exit";
+  rule.quantity = "exit_speed";
+  rule.bound = {{}, 27.0665};
+  for (const double excess : {1.0, 1e-2, 1e-3, 1e-4}) {
+    Measurements measurements;
+    measurements.see("exit_speed", 27.0665 + excess);
+    const Judgement judgement = judge({rule}, measurements).front();
+    CAPTURE(excess, measured_text(judgement), marked_bound_text(judgement));
+    CHECK(judgement.verdict == RuleVerdict::fail);
+    CHECK_THAT(marked_bound_text(judgement), !Contains(measured_text(judgement)));
+  }
+  Measurements kept;
+  kept.see("exit_speed", 27.0664);
+  CHECK(measured_text(judge({rule}, kept).front()) == "27.07 m/s");
+}
+
 TEST_CASE("how sure a bound is shows wherever the bound shows") {
   const Design design = read_design(designs_path("hills/garmisch_hs142.yaml"));
   const Track track = solve(design);
@@ -405,7 +423,7 @@ TEST_CASE("how sure a bound is shows wherever the bound shows") {
   for (const Judgement& judgement : judgements) {
     INFO(judgement.rule.id);
     CHECK(needs_checking(judgement.rule.certainty));
-    CHECK_THAT(marked_bound_text(judgement.rule),
+    CHECK_THAT(marked_bound_text(judgement),
                Contains(" [" + std::string(word(judgement.rule.certainty)) + "]"));
     CHECK_THAT(sheets, Contains(judgement.rule.id + "\n" + std::string(to_text(judgement.verdict)) + "\n" +
                                 measured_text(judgement) + "\n" + bound_text(judgement.rule) + "\n" +

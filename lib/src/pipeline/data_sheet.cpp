@@ -359,7 +359,7 @@ Rows verdict_rows(const std::vector<Judgement>& judgements) {
   for (const Judgement& one : judgements) {
     const bool unknown = one.verdict == RuleVerdict::cannot_be_judged;
     rows.push_back({one.rule.id, unknown ? "look" : std::string(to_text(one.verdict)), value_text(one),
-                    marked_bound_text(one.rule)});
+                    marked_bound_text(one)});
   }
   return rows;
 }

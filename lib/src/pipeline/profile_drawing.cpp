@@ -323,7 +323,7 @@ SheetTable rules_sheet_table(const std::vector<Judgement>& judgements) {
   table.widths_mm = {80.0, 40.0, 100.0, 60.0, 60.0};
   for (const Judgement& one : judgements) {
     table.rows.push_back({one.rule.id, std::string(to_text(one.verdict)), measured_text(one),
-                          bound_text(one.rule), certainty_text(one.rule.certainty)});
+                          bound_text(one.rule, digits_of(one)), certainty_text(one.rule.certainty)});
   }
   return table;
 }

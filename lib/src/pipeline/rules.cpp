@@ -66,8 +66,9 @@ std::vector<Judgement> judge_rules(const Design& design, const Track& track) {
   return judge(design.rules.in_force, rule_measurements(design, track));
 }
 
-std::string marked_bound_text(const Rule& rule) {
-  const std::string text = bound_text(rule);
+std::string marked_bound_text(const Judgement& judgement) {
+  const Rule& rule = judgement.rule;
+  const std::string text = bound_text(rule, digits_of(judgement));
   return needs_checking(rule.certainty) ? text + " [" + std::string(word(rule.certainty)) + "]" : text;
 }
 
@@ -77,7 +78,8 @@ std::string certainty_text(Certainty certainty) {
 
 std::string measured_text(const Judgement& judgement) {
   if (!judgement.value) return "-";
-  std::string text = quantity_text(*judgement.value, rule_quantity(judgement.rule.quantity)->dimension);
+  std::string text = quantity_text(*judgement.value, rule_quantity(judgement.rule.quantity)->dimension,
+                                   digits_of(judgement));
   if (judgement.arc_length) text += " at " + length_text(*judgement.arc_length);
   if (!judgement.place.empty()) text += " (" + judgement.place + ")";
   return text;

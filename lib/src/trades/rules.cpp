@@ -183,10 +183,23 @@ RuleVerdict worst(const std::vector<Judgement>& judgements) {
   return verdict;
 }
 
-std::string bound_text(const Rule& rule) {
+int digits_of(const Judgement& judgement) {
+  constexpr int kUsual = 4;
+  constexpr int kMost = 15;  // rounding: of a double
+  const bool is_broken = judgement.verdict == RuleVerdict::warn || judgement.verdict == RuleVerdict::fail;
+  if (!is_broken || !judgement.value || !judgement.bound) return kUsual;
+  const Dimension dimension = rule_quantity(judgement.rule.quantity)->dimension;
+  int digits = kUsual;
+  while (digits < kMost && quantity_text(*judgement.value, dimension, digits) ==
+                               quantity_text(*judgement.bound, dimension, digits))
+    ++digits;
+  return digits;
+}
+
+std::string bound_text(const Rule& rule, int digits) {
   const RuleQuantity* const quantity = rule_quantity(rule.quantity);
   const Dimension dimension = quantity == nullptr ? Dimension::number : quantity->dimension;
-  const auto text = [&](double value) { return quantity_text(value, dimension); };
+  const auto text = [&](double value) { return quantity_text(value, dimension, digits); };
   if (rule.bound.is_fixed()) return text(*rule.bound.lowest);
   if (rule.bound.lowest && rule.bound.highest) {
     return text(*rule.bound.lowest) + " to " + text(*rule.bound.highest);

@@ -17,8 +17,8 @@ namespace glissade {
 /// Holds the rules of a design against its track.
 [[nodiscard]] std::vector<Judgement> judge_rules(const Design& design, const Track& track);
 
-/// @return ">= 0.25 s [derived]": a bound for people, marked where nobody read it in its document
-[[nodiscard]] std::string marked_bound_text(const Rule& rule);
+/// @return ">= 0.25 s [derived]": a bound for people, marked where nobody read it in its document, with digits_of() the judgement
+[[nodiscard]] std::string marked_bound_text(const Judgement& judgement);
 /// @return "derived, to be checked": how sure a bound is, for a column of its own
 [[nodiscard]] std::string certainty_text(Certainty certainty);
 /// @return "27.1 m/s^2 at 88 m (gate 49)", "-": what was measured, and where

@@ -164,6 +164,9 @@ struct Judgement {
 [[nodiscard]] RuleVerdict worst(const std::vector<Judgement>& judgements);
 
 /// @return ">= 0.25 s", "9 deg to 12 deg": a bound for people
-[[nodiscard]] std::string bound_text(const Rule& rule);
+[[nodiscard]] std::string bound_text(const Rule& rule, int digits = 4);
+
+/// @return the digits that tell a value from the bound that it breaks; 4 where they do, or nothing is broken
+[[nodiscard]] int digits_of(const Judgement& judgement);
 
 }  // namespace glissade
