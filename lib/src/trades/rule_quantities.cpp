@@ -51,8 +51,8 @@ constexpr std::array kOfTracks = std::to_array<RuleQuantity>({
     {"highest_take_off_speed", speed, "take-off speed from the highest gate"},
     {"lowest_take_off_speed", speed, "take-off speed from the lowest gate"},
     // chutes: the worst over low, nominal and high friction, and over trickle, nominal and surge flow
-    {"highest_friction_angle", angle, "highest friction angle anywhere on the track"},
-    {"friction_spread", angle, "highest less lowest friction angle at one place"},
+    {"highest_friction_angle", angle, "highest friction angle of the stream anywhere on its track"},
+    {"friction_spread", angle, "highest less lowest friction angle of the stream at one place"},
     {"cases_not_arriving", number, "cases of friction and flow that do not arrive"},
     {"lowest_stream_speed", speed, "lowest speed of the stream"},
     {"stall_margin", angle, "friction angle at which the stream stops, less the highest"},
