@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/design/write.hpp"
+#include "glissade/motion/laws/rider.hpp"
 #include "glissade/pipeline/json.hpp"
 #include "glissade/pipeline/rules.hpp"
 
@@ -11,9 +12,12 @@
 #include "support/thorough.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -134,6 +138,93 @@ TEST_CASE("the lowest letters within bounds are no higher than any others within
   CHECK_THROWS_AS(least_drop_in_run(garmisch(), bounds, wanted), InputError);
 }
 
+namespace {
+
+/// A hill with bounds of its letters, of which many give another speed than the one asked for, whatever the straight.
+struct BoundedHill {
+  InRunShape shape;
+  LetterBounds bounds;
+  TakeOff take_off;
+};
+
+BoundedHill bounded_hill(testing::Random& random) {
+  BoundedHill hill;
+  hill.shape =
+      garmisch(std::array{InRunTransition::cubic, InRunTransition::circle,
+                          InRunTransition::clothoid}[static_cast<std::size_t>(random.integer(0, 2))]);
+  hill.shape.alpha = Angle::from_degrees(random.between(4.0, 12.0));
+  hill.shape.gamma = Angle::from_degrees(random.between(22.0, 36.0));
+  hill.shape.r1 = random.between(20.0, 130.0);
+  hill.shape.t = random.between(2.0, 9.0);
+  const auto below = [&](double value, double farthest) { return value * random.between(farthest, 1.0); };
+  hill.bounds.gamma = {hill.shape.gamma.radians() - random.between(0.0, 10.0) * kDegree,
+                       hill.shape.gamma.radians() + random.between(0.0, 12.0) * kDegree};
+  hill.bounds.r1 = {below(hill.shape.r1, 0.3), hill.shape.r1};
+  hill.bounds.t = {below(hill.shape.t, 0.3), hill.shape.t};
+  if (random.integer(0, 2) == 0) hill.bounds.straight = random.between(0.0, 25.0);
+  hill.take_off = take_off(1.0, random.between(0.0, 0.12), random.between(0.0, 0.004));
+  if (random.integer(0, 2) == 0) hill.take_off.body.head_wind = random.between(-4.0, 4.0);
+  if (random.integer(0, 3) == 0)
+    hill.take_off.body.law = std::make_shared<const Rider>(random.between(0.5, 1.2));
+  // About what the bend alone gives.
+  hill.shape.length = transition_length(hill.shape) + hill.shape.t + 1e-3;
+  const double alone = speed_on(std::make_shared<const InRun>(hill.shape), hill.take_off);
+  hill.take_off.speed = std::max(alone, 5.0) * random.between(0.75, 1.3);
+  return hill;
+}
+
+/// The lowest of a grid over the bounds; none where no letters of it reach the speed below a straight as long as asked for.
+std::optional<double> lowest_of_grid(const BoundedHill& hill, int steps) {
+  std::optional<double> least;
+  const auto at = [&](const Range& range, int i) {
+    return *range.lowest + (*range.highest - *range.lowest) * i / steps;
+  };
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      for (int k = 0; k <= steps; ++k) {
+        InRunShape shape = hill.shape;
+        shape.gamma = Angle::from_radians(at(hill.bounds.gamma, i));
+        shape.r1 = at(hill.bounds.r1, j);
+        shape.t = at(hill.bounds.t, k);
+        try {
+          shape = reaching(shape, hill.take_off);
+        } catch (const Error&) {
+          continue;
+        }
+        if (InRun(shape).transition_begins() < hill.bounds.straight) continue;
+        least = std::min(least.value_or(HUGE_VAL), drop_of(shape));
+      }
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("the lowest letters are found where many within the bounds cannot be") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int hills = testing::thorough() ? 24 : 8;
+  const int steps = testing::thorough() ? 5 : 3;
+  int found = 0;
+  for (int i = 0; i < hills; ++i) {
+    INFO("hill " << i);
+    const BoundedHill hill = bounded_hill(random);
+    const std::optional<double> least = lowest_of_grid(hill, steps);
+    if (!least) continue;
+    ++found;
+    const InRunShape best = least_drop_in_run(hill.shape, hill.bounds, hill.take_off);
+    CHECK(drop_of(best) <= *least * (1.0 + 1e-8));
+    CHECK(std::fabs(speed_on(std::make_shared<const InRun>(best), hill.take_off) / hill.take_off.speed -
+                    1.0) < 1e-10);
+    CHECK(hill.bounds.gamma.holds(best.gamma.radians()));
+    CHECK(hill.bounds.r1.holds(best.r1));
+    CHECK(hill.bounds.t.holds(best.t));
+    CHECK(InRun(best).transition_begins() >= hill.bounds.straight * (1.0 - 1e-12));
+  }
+  CHECK(found > hills / 3);
+}
+
 TEST_CASE("a speed that the bend alone exceeds, or that drag does not allow, is told") {
   CHECK_THROWS_WITH(reaching(garmisch(), take_off(15.0)),
                     contains_text("less than the transition alone gives"));
@@ -179,6 +270,35 @@ TEST_CASE("along a load-controlled bend the curvature's load is the one prescrib
     CHECK(std::fabs(track->at(s).curvature * speed * speed - expected) < 2e-3);
   }
   CHECK(std::fabs(track->slope_angle(track->length()) - 11.0 * kDegree) < 1e-12);
+}
+
+TEST_CASE(
+    "a load-controlled bend is the one prescribed in wind and for a centre of mass above the track, too") {
+  struct Case {
+    double head_wind;
+    double height;
+    double entry_speed;
+  };
+  for (const Case& one :
+       {Case{4.0, 0.0, 0.0}, Case{-5.0, 0.0, 2.0}, Case{0.0, 1.1, 0.0}, Case{3.0, 0.8, 0.0}}) {
+    INFO(one.head_wind << " m/s, " << one.height << " m");
+    TakeOff wanted = take_off(27.0, 0.03, 0.003);
+    wanted.body.head_wind = one.head_wind;
+    wanted.body.entry_speed = one.entry_speed;
+    if (one.height > 0.0) wanted.body.law = std::make_shared<const Rider>(one.height);
+    const auto track =
+        std::make_shared<const ClothoidSpline>(load_controlled_in_run(garmisch(), 6.0, wanted));
+    const Motion motion(track, wanted.body, wanted.gravity);
+    REQUIRE(motion.arrived());
+    CHECK(std::fabs(motion.exit_speed() / 27.0 - 1.0) < 1e-10);
+    const double e1 = track->segments().front().length;
+    const double length = track->length() - 6.9 - e1;
+    for (const double share : {0.05, 0.125, 0.3, 0.5, 0.7, 0.875, 0.95}) {
+      const LawState at = motion.law_state(e1 + share * length);
+      const double expected = 6.0 * std::min({4.0 * share, 1.0, 4.0 * (1.0 - share)});
+      CHECK(std::fabs(at.normal_load - wanted.gravity * std::cos(at.slope_angle) - expected) < 2e-3);
+    }
+  }
 }
 
 TEST_CASE(
