@@ -345,7 +345,7 @@ TEST_CASE("the take-off speed has a price of its own, and one with the letters t
   const double allowed = 1.0 / 0.14;
   const double v0 = found.take_off.speed;
   const auto drop = [&](double v, double sizing) {
-    InRunShape shape = found.within_rules;
+    InRunShape shape = *found.within_rules;
     shape.r1 += (sizing * sizing - v0 * v0) / allowed;
     shape.t = 0.25 * sizing;
     TakeOff to = found.take_off;
@@ -382,7 +382,7 @@ TEST_CASE("a redesign reads back as a design that gives its numbers") {
   for (const bool free : {true, false}) {
     const Design made = parse_design(design_text(redesigned(design, found, free)), "made.yaml");
     const Track track = solve(made);
-    const double drop = free ? found.shapes.back().ends.drop : drop_of(found.within_rules);
+    const double drop = free ? found.shapes.back().ends.drop : drop_of(*found.within_rules);
     CHECK(std::fabs(track.endpoints.drop - drop) < 1e-9);
     CHECK(std::fabs(track.motion.exit_speed() / found.take_off.speed - 1.0) < 1e-6);
     const Vec3 edge = track.placement.to_space(track.endpoints.run, track.endpoints.drop, 0.0);
@@ -411,8 +411,8 @@ TEST_CASE("the letters within the rules leave a straight along the start area, a
   const RedesignShape& free = found.shapes.back();
   REQUIRE(free.track);
   CHECK(found.start_area == 13.73);
-  CHECK(InRun(found.within_rules).transition_begins() >= found.start_area);
-  CHECK(InRun(found.within_rules).transition_begins() < found.start_area + 1e-6);
+  CHECK(InRun(*found.within_rules).transition_begins() >= found.start_area);
+  CHECK(InRun(*found.within_rules).transition_begins() < found.start_area + 1e-6);
   CHECK(free.ends.drop < letters.ends.drop);
   CHECK(found.prices.front().by_start_area);
   for (const RedesignShape& shape : found.shapes) {
@@ -421,6 +421,146 @@ TEST_CASE("the letters within the rules leave a straight along the start area, a
   }
   const Design made = parse_design(design_text(redesigned(design, found, false)), "made.yaml");
   CHECK(std::fabs(solve(made).motion.exit_speed() / found.take_off.speed - 1.0) < 1e-6);
+}
+
+namespace {
+
+/// A hill of a fuzzer: of its bend the rules allow a smaller r1, and a steeper gamma with its own r1 gives more than its speed.
+Design slow_design(const std::string& rules = "") {
+  return parse_design(
+      "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.04526725700253827, drag: 0.0011673354145179753 1/m, head_wind: 4 m/s}\n"
+      "centerline:\n  {kind: in-run, gamma: 31.48653262492294 deg, alpha: 10.914924841470196 deg,\n"
+      "   r1: 124.96571650732048 m, t: 7.850102779585768 m, e1: 86.81605516746546 m,\n"
+      "   es: 8.774522411303963 m, e_counts_to: table}\n"
+      "gates: {count: 9, measuring_place: 10 m}\nhill: {size: 220 m, design_speed: 26.659519973486304 "
+      "m/s}\n" +
+          rules,
+      "slow.yaml");
+}
+
+RunContext short_search() {
+  RunContext context;
+  context.time_budget = 1e-3;
+  return context;
+}
+
+}  // namespace
+
+TEST_CASE("letters that alone give more than the take-off speed are passed by, not the end of a redesign") {
+  const Redesign found = redesign(slow_design(), {}, short_search());
+  REQUIRE(found.within_rules);
+  // By an integrator of its own: 37.149 m, 9.28 m of them straight.
+  CHECK(std::fabs(drop_of(*found.within_rules) - 37.149) < 1e-3);
+  CHECK(std::fabs(found.within_rules->gamma.degrees() - 35.0) < 1e-9);
+  CHECK(std::fabs(found.within_rules->r1 - 99.50) < 5e-3);
+  CHECK(std::fabs(found.within_rules->t - 6.665) < 5e-4);
+  CHECK(std::fabs(InRun(*found.within_rules).transition_begins() - 9.28) < 5e-3);
+  // What cannot be with its own letters is told of that shape alone.
+  CHECK_THAT(shape_named(found, "its letters, clothoid").problem,
+             contains_text("less than the transition alone gives"));
+  CHECK(found.prices.size() == 5);
+  CHECK_FALSE(found.letters_problem());
+}
+
+TEST_CASE("where no letters within the rules give the take-off speed only they are missing") {
+  const Design design = slow_design(
+      "rules:\n  own:\n    - {id: own.t, sentence: Long., quantity: table_length, "
+      "lowest: 400 m, source: a test}\n");
+  const Redesign found = redesign(design, {}, short_search());
+  CHECK_FALSE(found.within_rules);
+  CHECK(found.prices.empty());
+  const RedesignShape& letters = shape_named(found, "within the rules");
+  CHECK(letters.track == nullptr);
+  CHECK_THAT(letters.problem, contains_text("less than the transition alone gives"));
+  CHECK(found.shapes.front().track);
+  CHECK(shape_named(found, "its letters, circle").track);
+  CHECK(found.shapes.back().problem == "the table alone, 400 m, gives more than the take-off speed");
+  const auto problem = found.letters_problem();
+  REQUIRE(problem);
+  CHECK_THAT(problem->what,
+             contains_text("there are no letters within the rules: take-off speed: 23.328 m/s"));
+  CHECK_THROWS_AS(redesigned(design, found, false), InfeasibleError);
+  const auto told = nlohmann::json::parse(redesign_json(design, found));
+  CHECK(told["letters"].empty());
+}
+
+TEST_CASE("no hill is refused for letters that are only tried") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < (testing::thorough() ? 20 : 4); ++i) {
+    Design design = garmisch_design();
+    InRunDesign& letters = design.centerline.in_run;
+    letters.gamma = Angle::from_degrees(random.between(27.0, 33.0));
+    letters.r1 = random.between(60.0, 140.0);
+    letters.t = random.between(5.0, 9.0);
+    letters.e1 = transition_length(letters.shape()) + letters.t + random.between(0.5, 8.0);
+    letters.es = random.between(0.1, 0.4);
+    letters.e2.reset();
+    design.gates.reset();
+    // Its own letters keep the rules of that speed.
+    design.hill.design_speed =
+        random.between(0.7, 1.0) * std::min(std::sqrt(letters.r1 / 0.14), 4.0 * letters.t);
+    design.body.friction = Friction::from_coefficient(random.between(0.01, 0.06));
+    const Redesign found = redesign(design, {}, short_search());
+    INFO("hill " << i << ", " << found.take_off.speed << " m/s");
+    const RedesignShape& shape = shape_named(found, "within the rules");
+    REQUIRE(shape.track);
+    REQUIRE(found.within_rules);
+    CHECK(drop_of(*found.within_rules) <= drop_of(found.shapes.front().letters.value()) + 1e-9);
+    CHECK(std::fabs(shape.take_off_speed / found.take_off.speed - 1.0) < 1e-10);
+    CHECK(found.prices.size() == 5);
+  }
+}
+
+TEST_CASE("r1 is as small as what is ridden allows, however small it was at first") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.0148, drag: 0.00122 1/m, centre_height: 0.7 m}\n"
+      "centerline:\n  {kind: in-run, gamma: 31.4 deg, alpha: 10.3 deg, r1: 67.6 m, t: 6.7 m, e1: 86.3 m,\n"
+      "   es: 24 m, e_counts_to: edge}\n"
+      "gates: {count: 9, measuring_place: 10 m, fast: {friction_coefficient: 0.0074}}\n"
+      "hill: {size: 130 m, design_speed: 21 m/s}\n",
+      "fast.yaml");
+  const Redesign found = redesign(design, {}, short_search());
+  const Design made = redesigned(design, found, false);
+  const Measurements ridden = rule_measurements(made, solve(made));
+  const double radial = *ridden.find("highest_radial_acceleration")->value;
+  CHECK(radial <= (1.0 + 1e-9) / 0.14);
+  CHECK(radial > (1.0 - 1e-6) / 0.14);
+  CHECK(found.prices[2].rule == "fis.in-run.radial-acceleration");
+}
+
+TEST_CASE("the load-controlled line keeps what the rules allow, whatever the design speed") {
+  const auto line = [](const Design& design) {
+    return shape_named(redesign(design, {}, short_search()), "load-controlled");
+  };
+  Design design = garmisch_design();
+  const RedesignShape as_shipped = line(design);
+  CHECK(std::fabs(as_shipped.highest_radial - 1.0 / 0.14) < 2e-3);
+  CHECK(std::fabs(as_shipped.ends.drop - 47.355) < 1e-3);  // by shooting of its own
+  for (const double speed : {20.0, 30.0}) {
+    design.hill.design_speed = speed;
+    CHECK(std::fabs(line(design).ends.drop - as_shipped.ends.drop) < 1e-6);
+  }
+  // A rule on the load leaves what the weight does not take.
+  const auto ruled = [&](const std::string& quantity, double highest) {
+    Design other = design;
+    Rule rule;
+    rule.id = "own.load";
+    rule.quantity = quantity;
+    rule.bound.highest = highest;
+    other.rules.in_force = {rule};
+    return line(other);
+  };
+  CHECK(std::fabs(ruled("highest_normal_load", 14.5).highest_load - 14.5) < 1e-6);
+  const double table_weight = design.gravity * std::cos(11.0 * kDegree);
+  CHECK(std::fabs(ruled("load_above_table_weight", 5.0).highest_load - table_weight - 5.0) < 1e-6);
+  // Where none speaks of it: that of the take-off speed at r1.
+  Design none = design;
+  none.rules.in_force.clear();
+  const double v = as_shipped.take_off_speed;
+  CHECK(std::fabs(line(none).highest_radial - v * v / design.centerline.in_run.r1) < 2e-3);
 }
 
 TEST_CASE("shapes that bend where gates lie are told") {
