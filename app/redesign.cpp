@@ -181,6 +181,22 @@ std::string area_text(const Redesign& found) {
   return text.empty() ? "" : labelled("Start area", text);
 }
 
+/// What a design that is written is for, and within.
+std::string purpose(RedesignGoal goal, bool letters) {
+  constexpr const char* kByRules =
+      ". It is not held to every rule: `glissade rules` tells which its rides break";
+  switch (letters ? RedesignGoal::least_drop : goal) {
+    case RedesignGoal::least_load:
+      return "for the least load from the same height to the same speed; r1 is free" + std::string(kByRules);
+    case RedesignGoal::exit_speed:
+      return "for the highest take-off speed from the same height" + std::string(kByRules);
+    case RedesignGoal::least_curvature_rate:
+      return "for the most gradual bend from the same height to the same speed, within the rules";
+    default:
+      return "for the same take-off speed within the rules";
+  }
+}
+
 /// @return what was written
 std::string write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
   const bool is_there =
@@ -193,7 +209,7 @@ std::string write_design(const RedesignArguments& options, const Design& design,
                             : found.shapes.back().letters ? "the best shape that is known"
                                                           : "the shape that a search found";
   OutputFiles files;
-  files.set().put(options.output, "# " + of + " for the same take-off speed within the rules, " + which +
+  files.set().put(options.output, "# " + of + ", " + which + ",\n# " + purpose(found.goal, options.letters) +
                                       ".\n" + design_text(made));
   files.put_in_place();
   return "The design is written, as " + options.output + ".";
