@@ -131,12 +131,15 @@ std::string prices_text(const Redesign& found) {
     text += (text.empty() ? "" : "\n") + price.letter + " " + quantity_text(price.value, price.dimension) +
             ": " + price_words(price);
     if (!price.rule.empty()) text += ", held by " + price.rule;
-    if (price.by_start_area)
-      text += ", held by a straight along the start area, " + length_text(found.start_area);
+    if (price.by_start_area) {
+      text += found.start_area > 0.0
+                  ? ", held by a straight along the start area, " + length_text(found.start_area)
+                  : std::string(", held by the start, which would lie in the bend");
+    }
     if (price.certainty && needs_checking(*price.certainty))
       text += " [" + std::string(word(*price.certainty)) + "]";
   }
-  return labelled("Tower for each", text);
+  return text.empty() ? "" : labelled("Tower for each", text);
 }
 
 /// What holds the free shape back, to the beginning of the table.
@@ -178,9 +181,26 @@ std::string area_text(const Redesign& found) {
   return text.empty() ? "" : labelled("Start area", text);
 }
 
+/// What a design that is written is for, and within.
+std::string purpose(RedesignGoal goal, bool letters) {
+  constexpr const char* kByRules =
+      ". It is not held to every rule: `glissade rules` tells which its rides break";
+  switch (letters ? RedesignGoal::least_drop : goal) {
+    case RedesignGoal::least_load:
+      return "for the least load from the same height to the same speed; r1 is free" + std::string(kByRules);
+    case RedesignGoal::exit_speed:
+      return "for the highest take-off speed from the same height" + std::string(kByRules);
+    case RedesignGoal::least_curvature_rate:
+      return "for the most gradual bend from the same height to the same speed, within the rules";
+    default:
+      return "for the same take-off speed within the rules";
+  }
+}
+
 /// @return what was written
 std::string write_design(const RedesignArguments& options, const Design& design, const Redesign& found) {
-  const bool is_there = options.letters || found.shapes.back().track != nullptr;
+  const bool is_there =
+      options.letters ? found.within_rules.has_value() : found.shapes.back().track != nullptr;
   if (options.output.empty() || !is_there) return "";
   Design made = moved_to(redesigned(design, found, !options.letters), options.output);
   const std::string of = design.name.empty() ? std::string("an in-run") : design.name;
@@ -189,7 +209,7 @@ std::string write_design(const RedesignArguments& options, const Design& design,
                             : found.shapes.back().letters ? "the best shape that is known"
                                                           : "the shape that a search found";
   OutputFiles files;
-  files.set().put(options.output, "# " + of + " for the same take-off speed within the rules, " + which +
+  files.set().put(options.output, "# " + of + ", " + which + ",\n# " + purpose(found.goal, options.letters) +
                                       ".\n" + design_text(made));
   files.put_in_place();
   return "The design is written, as " + options.output + ".";
@@ -203,8 +223,14 @@ std::string table_text(const Design& design, const Redesign& found) {
          "\n" + prices_text(found) + free_text(found) + breaks_text(found) + area_text(found);
 }
 
-/// @throws ConvergenceError, or InfeasibleError where no free shape keeps what is asked for
-void require_found(const Design& design, const Redesign& found) {
+/// @param letters  whether those within the rules were asked for
+/// @throws ConvergenceError, or InfeasibleError where no free shape, or no letters, keep what is asked for
+void require_found(const Design& design, const Redesign& found, bool letters) {
+  if (letters && !found.within_rules) {
+    Issue none = *found.letters_problem();
+    none.where = design.where("centerline");
+    throw InfeasibleError(none);
+  }
   std::optional<Issue> problem = found.search_problem();
   if (!problem) return;
   problem->where = design.where("centerline");
@@ -226,7 +252,7 @@ ExitCode show_redesign(const CLI::App& command, const RedesignArguments& options
   }();
   const std::string kept = write_design(options, design, found);
   print(options.json ? redesign_json(design, found) : table_text(design, found), kept);
-  require_found(design, found);
+  require_found(design, found, options.letters);
   return ExitCode::done;
 }
 

@@ -1,5 +1,6 @@
 #include "glissade/trades/ski_jump/gates.hpp"
 
+#include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/in_run.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/motion/laws/rider.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -164,6 +166,36 @@ TEST_CASE("gates fill the start area evenly, or follow each other by a step from
                     Contains("the start area, 24 m, does not fit an in-run of 20 m"));
   CHECK_THROWS_AS(stepped_gates(102.9, 24.0, 0.0), InputError);
   CHECK_THROWS_AS(stepped_gates(102.9, 24.0, 1e-9), InputError);
+}
+
+TEST_CASE("gates a step in height apart are so on a start area that bends, too") {
+  const double entry = 38.0 * kDegree;
+  const double turn = 23.0 * kDegree;
+  const ClothoidSpline arc(Angle::from_radians(entry),
+                           {{60.0 * turn, 1.0 / 60.0, 1.0 / 60.0}, {6.0, 0.0, 0.0}});
+  const double lowest = arc.at(15.0).drop;
+  const std::vector<Gate> gates = gates_by_height(arc, 15.0, 1.3);
+  REQUIRE(gates.size() == 6);
+  for (const Gate& gate : gates) {
+    const double drop = lowest - 1.3 * (gate.number - 1);
+    CHECK(std::fabs(arc.at(gate.from_start).drop - drop) < 1e-11);
+    // cos(zeta) of the place is that of the start and drop/R.
+    CHECK(gate.from_start ==
+          Approx(60.0 * (entry - std::acos(std::cos(entry) + drop / 60.0))).epsilon(1e-10));
+    CHECK(gate.from_start + gate.to_edge == Approx(arc.length()).epsilon(1e-14));
+  }
+  // A height of whole steps ends at the start.
+  CHECK(gates_by_height(arc, 15.0, lowest / 8.0).size() == 9);
+  CHECK(gates_by_height(arc, 15.0, lowest / 8.0).back().from_start == 0.0);
+  // On a straight they are steps along it.
+  const std::vector<Gate> straight = gates_by_height(*garmisch_track(), 24.0, 0.4);
+  const std::vector<Gate> along = stepped_gates(102.9, 24.0, 0.4 / std::sin(35.0 * kDegree));
+  REQUIRE(straight.size() == along.size());
+  for (std::size_t i = 0; i < along.size(); ++i)
+    CHECK(std::fabs(straight[i].from_start - along[i].from_start) < 1e-11);
+  CHECK_THROWS_WITH(gates_by_height(arc, 15.0, 0.0), Contains("vertical_step: 0 mm is out of range"));
+  const ClothoidSpline hump(Angle::from_degrees(-5.0), {{40.0, -0.02, -0.02}, {6.0, 0.0, 0.0}});
+  CHECK_THROWS_WITH(gates_by_height(hump, 20.0, 0.4), Contains("the track rises within the start area"));
 }
 
 TEST_CASE(

@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/design/write.hpp"
+#include "glissade/motion/laws/rider.hpp"
 #include "glissade/pipeline/json.hpp"
 #include "glissade/pipeline/rules.hpp"
 
@@ -11,9 +12,12 @@
 #include "support/thorough.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -134,6 +138,93 @@ TEST_CASE("the lowest letters within bounds are no higher than any others within
   CHECK_THROWS_AS(least_drop_in_run(garmisch(), bounds, wanted), InputError);
 }
 
+namespace {
+
+/// A hill with bounds of its letters, of which many give another speed than the one asked for, whatever the straight.
+struct BoundedHill {
+  InRunShape shape;
+  LetterBounds bounds;
+  TakeOff take_off;
+};
+
+BoundedHill bounded_hill(testing::Random& random) {
+  BoundedHill hill;
+  hill.shape =
+      garmisch(std::array{InRunTransition::cubic, InRunTransition::circle,
+                          InRunTransition::clothoid}[static_cast<std::size_t>(random.integer(0, 2))]);
+  hill.shape.alpha = Angle::from_degrees(random.between(4.0, 12.0));
+  hill.shape.gamma = Angle::from_degrees(random.between(22.0, 36.0));
+  hill.shape.r1 = random.between(20.0, 130.0);
+  hill.shape.t = random.between(2.0, 9.0);
+  const auto below = [&](double value, double farthest) { return value * random.between(farthest, 1.0); };
+  hill.bounds.gamma = {hill.shape.gamma.radians() - random.between(0.0, 10.0) * kDegree,
+                       hill.shape.gamma.radians() + random.between(0.0, 12.0) * kDegree};
+  hill.bounds.r1 = {below(hill.shape.r1, 0.3), hill.shape.r1};
+  hill.bounds.t = {below(hill.shape.t, 0.3), hill.shape.t};
+  if (random.integer(0, 2) == 0) hill.bounds.straight = random.between(0.0, 25.0);
+  hill.take_off = take_off(1.0, random.between(0.0, 0.12), random.between(0.0, 0.004));
+  if (random.integer(0, 2) == 0) hill.take_off.body.head_wind = random.between(-4.0, 4.0);
+  if (random.integer(0, 3) == 0)
+    hill.take_off.body.law = std::make_shared<const Rider>(random.between(0.5, 1.2));
+  // About what the bend alone gives.
+  hill.shape.length = transition_length(hill.shape) + hill.shape.t + 1e-3;
+  const double alone = speed_on(std::make_shared<const InRun>(hill.shape), hill.take_off);
+  hill.take_off.speed = std::max(alone, 5.0) * random.between(0.75, 1.3);
+  return hill;
+}
+
+/// The lowest of a grid over the bounds; none where no letters of it reach the speed below a straight as long as asked for.
+std::optional<double> lowest_of_grid(const BoundedHill& hill, int steps) {
+  std::optional<double> least;
+  const auto at = [&](const Range& range, int i) {
+    return *range.lowest + (*range.highest - *range.lowest) * i / steps;
+  };
+  for (int i = 0; i <= steps; ++i) {
+    for (int j = 0; j <= steps; ++j) {
+      for (int k = 0; k <= steps; ++k) {
+        InRunShape shape = hill.shape;
+        shape.gamma = Angle::from_radians(at(hill.bounds.gamma, i));
+        shape.r1 = at(hill.bounds.r1, j);
+        shape.t = at(hill.bounds.t, k);
+        try {
+          shape = reaching(shape, hill.take_off);
+        } catch (const Error&) {
+          continue;
+        }
+        if (InRun(shape).transition_begins() < hill.bounds.straight) continue;
+        least = std::min(least.value_or(HUGE_VAL), drop_of(shape));
+      }
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("the lowest letters are found where many within the bounds cannot be") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const int hills = testing::thorough() ? 24 : 8;
+  const int steps = testing::thorough() ? 5 : 3;
+  int found = 0;
+  for (int i = 0; i < hills; ++i) {
+    INFO("hill " << i);
+    const BoundedHill hill = bounded_hill(random);
+    const std::optional<double> least = lowest_of_grid(hill, steps);
+    if (!least) continue;
+    ++found;
+    const InRunShape best = least_drop_in_run(hill.shape, hill.bounds, hill.take_off);
+    CHECK(drop_of(best) <= *least * (1.0 + 1e-8));
+    CHECK(std::fabs(speed_on(std::make_shared<const InRun>(best), hill.take_off) / hill.take_off.speed -
+                    1.0) < 1e-10);
+    CHECK(hill.bounds.gamma.holds(best.gamma.radians()));
+    CHECK(hill.bounds.r1.holds(best.r1));
+    CHECK(hill.bounds.t.holds(best.t));
+    CHECK(InRun(best).transition_begins() >= hill.bounds.straight * (1.0 - 1e-12));
+  }
+  CHECK(found > hills / 3);
+}
+
 TEST_CASE("a speed that the bend alone exceeds, or that drag does not allow, is told") {
   CHECK_THROWS_WITH(reaching(garmisch(), take_off(15.0)),
                     contains_text("less than the transition alone gives"));
@@ -182,6 +273,35 @@ TEST_CASE("along a load-controlled bend the curvature's load is the one prescrib
 }
 
 TEST_CASE(
+    "a load-controlled bend is the one prescribed in wind and for a centre of mass above the track, too") {
+  struct Case {
+    double head_wind;
+    double height;
+    double entry_speed;
+  };
+  for (const Case& one :
+       {Case{4.0, 0.0, 0.0}, Case{-5.0, 0.0, 2.0}, Case{0.0, 1.1, 0.0}, Case{3.0, 0.8, 0.0}}) {
+    INFO(one.head_wind << " m/s, " << one.height << " m");
+    TakeOff wanted = take_off(27.0, 0.03, 0.003);
+    wanted.body.head_wind = one.head_wind;
+    wanted.body.entry_speed = one.entry_speed;
+    if (one.height > 0.0) wanted.body.law = std::make_shared<const Rider>(one.height);
+    const auto track =
+        std::make_shared<const ClothoidSpline>(load_controlled_in_run(garmisch(), 6.0, wanted));
+    const Motion motion(track, wanted.body, wanted.gravity);
+    REQUIRE(motion.arrived());
+    CHECK(std::fabs(motion.exit_speed() / 27.0 - 1.0) < 1e-10);
+    const double e1 = track->segments().front().length;
+    const double length = track->length() - 6.9 - e1;
+    for (const double share : {0.05, 0.125, 0.3, 0.5, 0.7, 0.875, 0.95}) {
+      const LawState at = motion.law_state(e1 + share * length);
+      const double expected = 6.0 * std::min({4.0 * share, 1.0, 4.0 * (1.0 - share)});
+      CHECK(std::fabs(at.normal_load - wanted.gravity * std::cos(at.slope_angle) - expected) < 2e-3);
+    }
+  }
+}
+
+TEST_CASE(
     "a redesign keeps the take-off speed, and the free shape is no higher than the letters within the "
     "rules") {
   const Redesign& found = garmisch_redesign();
@@ -225,7 +345,7 @@ TEST_CASE("the take-off speed has a price of its own, and one with the letters t
   const double allowed = 1.0 / 0.14;
   const double v0 = found.take_off.speed;
   const auto drop = [&](double v, double sizing) {
-    InRunShape shape = found.within_rules;
+    InRunShape shape = *found.within_rules;
     shape.r1 += (sizing * sizing - v0 * v0) / allowed;
     shape.t = 0.25 * sizing;
     TakeOff to = found.take_off;
@@ -262,7 +382,7 @@ TEST_CASE("a redesign reads back as a design that gives its numbers") {
   for (const bool free : {true, false}) {
     const Design made = parse_design(design_text(redesigned(design, found, free)), "made.yaml");
     const Track track = solve(made);
-    const double drop = free ? found.shapes.back().ends.drop : drop_of(found.within_rules);
+    const double drop = free ? found.shapes.back().ends.drop : drop_of(*found.within_rules);
     CHECK(std::fabs(track.endpoints.drop - drop) < 1e-9);
     CHECK(std::fabs(track.motion.exit_speed() / found.take_off.speed - 1.0) < 1e-6);
     const Vec3 edge = track.placement.to_space(track.endpoints.run, track.endpoints.drop, 0.0);
@@ -291,8 +411,8 @@ TEST_CASE("the letters within the rules leave a straight along the start area, a
   const RedesignShape& free = found.shapes.back();
   REQUIRE(free.track);
   CHECK(found.start_area == 13.73);
-  CHECK(InRun(found.within_rules).transition_begins() >= found.start_area);
-  CHECK(InRun(found.within_rules).transition_begins() < found.start_area + 1e-6);
+  CHECK(InRun(*found.within_rules).transition_begins() >= found.start_area);
+  CHECK(InRun(*found.within_rules).transition_begins() < found.start_area + 1e-6);
   CHECK(free.ends.drop < letters.ends.drop);
   CHECK(found.prices.front().by_start_area);
   for (const RedesignShape& shape : found.shapes) {
@@ -301,6 +421,146 @@ TEST_CASE("the letters within the rules leave a straight along the start area, a
   }
   const Design made = parse_design(design_text(redesigned(design, found, false)), "made.yaml");
   CHECK(std::fabs(solve(made).motion.exit_speed() / found.take_off.speed - 1.0) < 1e-6);
+}
+
+namespace {
+
+/// A hill of a fuzzer: of its bend the rules allow a smaller r1, and a steeper gamma with its own r1 gives more than its speed.
+Design slow_design(const std::string& rules = "") {
+  return parse_design(
+      "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.04526725700253827, drag: 0.0011673354145179753 1/m, head_wind: 4 m/s}\n"
+      "centerline:\n  {kind: in-run, gamma: 31.48653262492294 deg, alpha: 10.914924841470196 deg,\n"
+      "   r1: 124.96571650732048 m, t: 7.850102779585768 m, e1: 86.81605516746546 m,\n"
+      "   es: 8.774522411303963 m, e_counts_to: table}\n"
+      "gates: {count: 9, measuring_place: 10 m}\nhill: {size: 220 m, design_speed: 26.659519973486304 "
+      "m/s}\n" +
+          rules,
+      "slow.yaml");
+}
+
+RunContext short_search() {
+  RunContext context;
+  context.time_budget = 1e-3;
+  return context;
+}
+
+}  // namespace
+
+TEST_CASE("letters that alone give more than the take-off speed are passed by, not the end of a redesign") {
+  const Redesign found = redesign(slow_design(), {}, short_search());
+  REQUIRE(found.within_rules);
+  // By an integrator of its own: 37.149 m, 9.28 m of them straight.
+  CHECK(std::fabs(drop_of(*found.within_rules) - 37.149) < 1e-3);
+  CHECK(std::fabs(found.within_rules->gamma.degrees() - 35.0) < 1e-9);
+  CHECK(std::fabs(found.within_rules->r1 - 99.50) < 5e-3);
+  CHECK(std::fabs(found.within_rules->t - 6.665) < 5e-4);
+  CHECK(std::fabs(InRun(*found.within_rules).transition_begins() - 9.28) < 5e-3);
+  // What cannot be with its own letters is told of that shape alone.
+  CHECK_THAT(shape_named(found, "its letters, clothoid").problem,
+             contains_text("less than the transition alone gives"));
+  CHECK(found.prices.size() == 5);
+  CHECK_FALSE(found.letters_problem());
+}
+
+TEST_CASE("where no letters within the rules give the take-off speed only they are missing") {
+  const Design design = slow_design(
+      "rules:\n  own:\n    - {id: own.t, sentence: Long., quantity: table_length, "
+      "lowest: 400 m, source: a test}\n");
+  const Redesign found = redesign(design, {}, short_search());
+  CHECK_FALSE(found.within_rules);
+  CHECK(found.prices.empty());
+  const RedesignShape& letters = shape_named(found, "within the rules");
+  CHECK(letters.track == nullptr);
+  CHECK_THAT(letters.problem, contains_text("less than the transition alone gives"));
+  CHECK(found.shapes.front().track);
+  CHECK(shape_named(found, "its letters, circle").track);
+  CHECK(found.shapes.back().problem == "the table alone, 400 m, gives more than the take-off speed");
+  const auto problem = found.letters_problem();
+  REQUIRE(problem);
+  CHECK_THAT(problem->what,
+             contains_text("there are no letters within the rules: take-off speed: 23.328 m/s"));
+  CHECK_THROWS_AS(redesigned(design, found, false), InfeasibleError);
+  const auto told = nlohmann::json::parse(redesign_json(design, found));
+  CHECK(told["letters"].empty());
+}
+
+TEST_CASE("no hill is refused for letters that are only tried") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int i = 0; i < (testing::thorough() ? 20 : 4); ++i) {
+    Design design = garmisch_design();
+    InRunDesign& letters = design.centerline.in_run;
+    letters.gamma = Angle::from_degrees(random.between(27.0, 33.0));
+    letters.r1 = random.between(60.0, 140.0);
+    letters.t = random.between(5.0, 9.0);
+    letters.e1 = transition_length(letters.shape()) + letters.t + random.between(0.5, 8.0);
+    letters.es = random.between(0.1, 0.4);
+    letters.e2.reset();
+    design.gates.reset();
+    // Its own letters keep the rules of that speed.
+    design.hill.design_speed =
+        random.between(0.7, 1.0) * std::min(std::sqrt(letters.r1 / 0.14), 4.0 * letters.t);
+    design.body.friction = Friction::from_coefficient(random.between(0.01, 0.06));
+    const Redesign found = redesign(design, {}, short_search());
+    INFO("hill " << i << ", " << found.take_off.speed << " m/s");
+    const RedesignShape& shape = shape_named(found, "within the rules");
+    REQUIRE(shape.track);
+    REQUIRE(found.within_rules);
+    CHECK(drop_of(*found.within_rules) <= drop_of(found.shapes.front().letters.value()) + 1e-9);
+    CHECK(std::fabs(shape.take_off_speed / found.take_off.speed - 1.0) < 1e-10);
+    CHECK(found.prices.size() == 5);
+  }
+}
+
+TEST_CASE("r1 is as small as what is ridden allows, however small it was at first") {
+  const Design design = parse_design(
+      "glissade: 1\ntrack: {edge: {x: 0 m, z: 0 m}}\n"
+      "body: {friction_coefficient: 0.0148, drag: 0.00122 1/m, centre_height: 0.7 m}\n"
+      "centerline:\n  {kind: in-run, gamma: 31.4 deg, alpha: 10.3 deg, r1: 67.6 m, t: 6.7 m, e1: 86.3 m,\n"
+      "   es: 24 m, e_counts_to: edge}\n"
+      "gates: {count: 9, measuring_place: 10 m, fast: {friction_coefficient: 0.0074}}\n"
+      "hill: {size: 130 m, design_speed: 21 m/s}\n",
+      "fast.yaml");
+  const Redesign found = redesign(design, {}, short_search());
+  const Design made = redesigned(design, found, false);
+  const Measurements ridden = rule_measurements(made, solve(made));
+  const double radial = *ridden.find("highest_radial_acceleration")->value;
+  CHECK(radial <= (1.0 + 1e-9) / 0.14);
+  CHECK(radial > (1.0 - 1e-6) / 0.14);
+  CHECK(found.prices[2].rule == "fis.in-run.radial-acceleration");
+}
+
+TEST_CASE("the load-controlled line keeps what the rules allow, whatever the design speed") {
+  const auto line = [](const Design& design) {
+    return shape_named(redesign(design, {}, short_search()), "load-controlled");
+  };
+  Design design = garmisch_design();
+  const RedesignShape as_shipped = line(design);
+  CHECK(std::fabs(as_shipped.highest_radial - 1.0 / 0.14) < 2e-3);
+  CHECK(std::fabs(as_shipped.ends.drop - 47.355) < 1e-3);  // by shooting of its own
+  for (const double speed : {20.0, 30.0}) {
+    design.hill.design_speed = speed;
+    CHECK(std::fabs(line(design).ends.drop - as_shipped.ends.drop) < 1e-6);
+  }
+  // A rule on the load leaves what the weight does not take.
+  const auto ruled = [&](const std::string& quantity, double highest) {
+    Design other = design;
+    Rule rule;
+    rule.id = "own.load";
+    rule.quantity = quantity;
+    rule.bound.highest = highest;
+    other.rules.in_force = {rule};
+    return line(other);
+  };
+  CHECK(std::fabs(ruled("highest_normal_load", 14.5).highest_load - 14.5) < 1e-6);
+  const double table_weight = design.gravity * std::cos(11.0 * kDegree);
+  CHECK(std::fabs(ruled("load_above_table_weight", 5.0).highest_load - table_weight - 5.0) < 1e-6);
+  // Where none speaks of it: that of the take-off speed at r1.
+  Design none = design;
+  none.rules.in_force.clear();
+  const double v = as_shipped.take_off_speed;
+  CHECK(std::fabs(line(none).highest_radial - v * v / design.centerline.in_run.r1) < 2e-3);
 }
 
 TEST_CASE("shapes that bend where gates lie are told") {

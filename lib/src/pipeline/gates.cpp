@@ -1,7 +1,5 @@
 #include "pipeline/gates.hpp"
 
-#include "glissade/core/math.hpp"
-
 #include "pipeline/located.hpp"
 
 #include <algorithm>
@@ -12,17 +10,12 @@
 namespace glissade::pipeline {
 namespace {
 
-/// Where a step in height leads along the straight that the gates lie on.
-double step_along(const GatesDesign& gates, const Centerline& centerline) {
-  if (gates.step) return *gates.step;
-  return *gates.vertical_step / math::sin(centerline.slope_angle(0.0));
-}
-
 std::vector<Gate> gates_of(const Design& design, const Centerline& centerline) {
   const GatesDesign& gates = *design.gates;
   const double area = gates.start_area.value_or(design.centerline.in_run.start_area().value_or(0.0));
   if (gates.count) return even_gates(centerline.length(), area, *gates.count);
-  return stepped_gates(centerline.length(), area, step_along(gates, centerline));
+  if (gates.step) return stepped_gates(centerline.length(), area, *gates.step);
+  return gates_by_height(centerline, area, *gates.vertical_step);
 }
 
 Body in_condition(Body body, const ConditionDesign& condition, const std::optional<DragDesign>& drag) {

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace glissade {
@@ -27,6 +28,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kGoalWords = {"least-drop", "least-length", "least-load",
                                                         "least-curvature-rate", "exit-speed"};
+constexpr std::string_view kWithinRules = "its letters within the rules";
 
 // --- what the rules say of letters -------------------------------------------------------------------
 
@@ -165,8 +167,51 @@ std::string name_of(InRunTransition transition) {
   return "two-radii";
 }
 
+/// What rules allow in a bend.
+struct BendBounds {
+  double radial = HUGE_VAL;  ///< v^2/radius at most [m/s^2]
+  double load = HUGE_VAL;    ///< normal load at most [m/s^2]
+};
+
+/// @param otherwise  the v^2/radius where no rule speaks of it or of the load [m/s^2]
+BendBounds bend_bounds(const Design& design, const Measurements& measurements, double otherwise) {
+  const double table_weight = design.gravity * math::cos(design.centerline.in_run.alpha.radians());
+  BendBounds bounds;
+  for (const Rule& rule : design.rules.in_force) {
+    if (!rule.bound.highest || !applies(rule, measurements)) continue;
+    const double highest = *rule.bound.highest;
+    if (rule.quantity == "design_radial_acceleration" || rule.quantity == "highest_radial_acceleration")
+      bounds.radial = std::min(bounds.radial, highest);
+    if (rule.quantity == "highest_normal_load") bounds.load = std::min(bounds.load, highest);
+    if (rule.quantity == "load_above_table_weight")
+      bounds.load = std::min(bounds.load, table_weight + highest);
+  }
+  if (std::isinf(bounds.radial) && std::isinf(bounds.load)) bounds.radial = otherwise;
+  return bounds;
+}
+
+/// Its v^2/radius is kept at what the rules allow, or at as much as leaves the load at what they allow.
+CenterlinePtr load_controlled(const InRunShape& certificate, const TakeOff& take_off,
+                              const BendBounds& bounds) {
+  const double table_weight = take_off.gravity * math::cos(certificate.alpha.radians());
+  double radial = std::min(bounds.radial, bounds.load - table_weight);
+  CenterlinePtr track;
+  constexpr int kMostRounds = 8;    // budget: each leaves some hundredth of what was missing
+  constexpr double kEnough = 1e-9;  // rounding: of a bound
+  for (int round = 0; round < kMostRounds; ++round) {
+    track = std::make_shared<const ClothoidSpline>(load_controlled_in_run(certificate, radial, take_off));
+    if (std::isinf(bounds.load)) break;
+    const Motion motion(track, take_off.body, take_off.gravity);
+    // Where the weight counts most, at the end of the bend, the load is fading already: there is more to give.
+    const double wanted = std::min(bounds.radial, radial + bounds.load - motion.highest_load().normal_load);
+    if (std::fabs(wanted - radial) <= kEnough * bounds.load) break;
+    radial = wanted;
+  }
+  return track;
+}
+
 /// The certificate's own letters with every other transition, and the curves of the literature.
-void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, double radial_load,
+void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, const BendBounds& bounds,
                      std::vector<RedesignShape>& shapes) {
   for (const InRunTransition other :
        {InRunTransition::cubic, InRunTransition::circle, InRunTransition::clothoid}) {
@@ -184,9 +229,8 @@ void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, dou
       2.0 * math::cos((certificate.gamma - certificate.alpha).radians()) > 1.0) {
     shapes.back().curvature_rate = HUGE_VAL;
   }
-  shapes.push_back(attempted("load-controlled (after Palej, Filipowska)", take_off, [&] {
-    return std::make_shared<const ClothoidSpline>(load_controlled_in_run(certificate, radial_load, take_off));
-  }));
+  shapes.push_back(attempted("load-controlled (after Palej, Filipowska)", take_off,
+                             [&] { return load_controlled(certificate, take_off, bounds); }));
 }
 
 // --- what is in the way ------------------------------------------------------------------------------
@@ -449,14 +493,22 @@ class FreeShape {
   [[nodiscard]] double speed_above_table() const {
     const auto table = std::make_shared<const ClothoidSpline>(
         certificate_.alpha, std::vector<ClothoidSegment>{{table_, 0.0, 0.0}});
+    const auto miss_from = [&](double entry_speed) {
+      Body body = take_off_.body;
+      body.entry_speed = entry_speed;
+      const Motion motion(table, body, take_off_.gravity);
+      return take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
+    };
+    if (miss_from(0.0) < 0.0) {
+      throw InfeasibleError(
+          {"", "the table alone, " + length_text(table_) + ", gives more than the take-off speed",
+           "Even a start at its beginning is too high.", "a shorter table, or a higher speed"});
+    }
     double speed = take_off_.speed;
     constexpr int kMostRounds = 20;
     for (int round = 0; round < kMostRounds; ++round) {
-      Body body = take_off_.body;
-      body.entry_speed = speed;
-      const Motion motion(table, body, take_off_.gravity);
-      const double miss = take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
-      speed += miss;
+      const double miss = miss_from(speed);
+      speed = std::max(speed + miss, 0.0);
       if (std::fabs(miss) < kTakeOffAccuracy * take_off_.speed) break;
     }
     return speed;
@@ -584,11 +636,10 @@ const std::vector<RedesignGoal>& redesign_goals() {
 
 namespace {
 
-/// By what r1 has to grow for a rule on the load of the bend, that rule, and what r1 grows by with the take-off speed; none where
-/// every such rule holds.
+/// How many times as large r1 has to be for the rule on the load of the bend that asks for most, below 1 where all are kept with
+/// room to spare; that rule, and what r1 grows by with the take-off speed. None where there is no such rule.
 std::optional<RuledBound> growth_of_radius(const Design& design, const Measurements& measurements,
                                            double speed) {
-  constexpr double kRounding = 1e-9;  // rounding: of a bound, as rules count what lies at it
   const Extremes* const bend = measurements.find("highest_radial_acceleration");
   if (bend == nullptr || !bend->most()) return {};
   const double radial = bend->most()->value;
@@ -599,9 +650,8 @@ std::optional<RuledBound> growth_of_radius(const Design& design, const Measureme
     const Extremes* const load = of_bend ? measurements.find(rule.quantity) : nullptr;
     if (load == nullptr || !load->most() || !rule.bound.highest || !applies(rule, measurements)) continue;
     // What curvature adds to the load goes with 1/r1.
-    const double excess = load->most()->value - *rule.bound.highest;
-    const double allowed = radial - excess;
-    if (!(excess > kRounding * *rule.bound.highest) || !(allowed > 0.0)) continue;
+    const double allowed = radial - (load->most()->value - *rule.bound.highest);
+    if (!(allowed > 0.0)) continue;
     // The squared speed of that ride grows by about as much as that of the one that counts.
     tighten(growth, radial / allowed, rule, 1.0, 2.0 * speed / allowed);
   }
@@ -610,46 +660,29 @@ std::optional<RuledBound> growth_of_radius(const Design& design, const Measureme
 
 /// The lowest letters within bounds that keep a straight along the start area. What shortens it is a steep in-run, of which
 /// the bend takes more of the height: gamma gives way where it may be chosen. If that does not help it is told of the shape.
-InRunShape least_drop_beside_area(const InRunShape& certificate, const LetterBounds& bounds,
-                                  const TakeOff& take_off, double area) {
-  const InRunShape steep = least_drop_in_run(certificate, bounds, take_off);
+/// @throws InfeasibleError if no letters within the bounds reach the speed
+InRunShape least_drop_beside_area(const InRunShape& certificate, LetterBounds bounds, const TakeOff& take_off,
+                                  double area) {
+  const LetterBounds elsewhere = bounds;
   constexpr double kBeyond = 1.0 + 1e-9;  // rounding: on the safe side, when read back too
-  const auto fits = [&](const InRunShape& shape) {
-    return InRun(shape).transition_begins() >= kBeyond * area;
-  };
-  if (area == 0.0 || fits(steep) || !bounds.gamma.highest) return steep;
-  const auto with_gamma = [&](double gamma) {
-    InRunShape shape = steep;
-    shape.gamma = Angle::from_radians(gamma);
-    return reaching(shape, take_off);
-  };
-  try {
-    double too_steep = steep.gamma.radians();
-    const double lowest = std::max(steep.alpha.radians(), bounds.gamma.lowest.value_or(0.0));
-    double gamma = too_steep;
-    InRunShape best = steep;
-    constexpr int kMostHalvings = 6;  // budget: down to 1/64 of the turn, hardly a bend
-    for (int i = 0; i < kMostHalvings && !fits(best); ++i) {
-      too_steep = gamma;
-      gamma = 0.5 * (gamma + lowest);
-      best = with_gamma(gamma);
+  bounds.straight = kBeyond * area;
+  const auto lowest = [&]() -> std::optional<InRunShape> {
+    try {
+      return least_drop_in_run(certificate, bounds, take_off);
+    } catch (const InfeasibleError&) {
+      return {};
     }
-    if (!fits(best)) return steep;
-    constexpr int kBisections = 45;  // accuracy: some 1e-14 rad
-    for (int i = 0; i < kBisections; ++i) {
-      const double middle = 0.5 * (gamma + too_steep);
-      const InRunShape shape = with_gamma(middle);
-      if (fits(shape)) {
-        gamma = middle;
-        best = shape;
-      } else {
-        too_steep = middle;
-      }
+  };
+  if (area > 0.0) {
+    if (const auto found = lowest()) return *found;
+    if (bounds.gamma.highest) {
+      constexpr double kHardly = 1.0 / 64.0;  // budget: of the turn, hardly a bend
+      const double alpha = certificate.alpha.radians();
+      bounds.gamma.lowest = alpha + kHardly * (*bounds.gamma.highest - alpha);
+      if (const auto found = lowest()) return *found;
     }
-    return best;
-  } catch (const InputError&) {
-    return steep;  // so gentle an in-run does not reach the speed
   }
+  return least_drop_in_run(certificate, elsewhere, take_off);
 }
 
 /// growth_of_radius() of the letters found; none where their gates cannot be ridden: that no gamma leaves a straight along the
@@ -659,28 +692,85 @@ std::optional<RuledBound> growth_for_rides(const Design& design, const Redesign&
   try {
     const Design found = redesigned(design, result, false);
     return growth_of_radius(design, rule_measurements(found, solve(found, context)), result.take_off.speed);
+  } catch (const InfeasibleError&) {
+    return {};
   } catch (const InputError&) {
     return {};
   }
 }
 
+/// The least r1 with which every rule on a ride is kept, by secants of the logarithms: what curvature adds to the load goes with
+/// about 1/r1.
+class RadiusForRides {
+ public:
+  /// Whether the rides of a radius keep every rule, and hardly more than that.
+  [[nodiscard]] static bool keeps(double growth) { return growth <= 1.0 + kRounding; }
+  [[nodiscard]] static bool keeps_barely(double growth) {
+    return keeps(growth) && growth >= 1.0 - 2.0 * kRoom;
+  }
+
+  /// @return the radius to try next
+  double after(double radius, double growth) {
+    const double x = std::log(radius);
+    const double y = std::log(growth);
+    double slope = -1.0;
+    if (before_ && before_->first != x) {
+      const double secant = (y - before_->second) / (x - before_->first);
+      constexpr double kMost = 3.0;  // taste: beyond, another gate or gamma got in between
+      if (secant < -1.0 / kMost && secant > -kMost) slope = secant;
+    }
+    before_ = {x, y};
+    return std::exp(x - (y + kRoom) / slope);
+  }
+
+ private:
+  static constexpr double kRounding = 1e-9;  // rounding: of a bound, as rules count what lies at it
+  static constexpr double kRoom = 5e-8;      // accuracy: of r1, on the safe side
+  std::optional<std::pair<double, double>> before_;
+};
+
 /// The lowest in-run of a certificate's letters that keeps every rule: those on the ride, too, from every gate and in every
 /// condition, of which a fast one is faster than the nominal ride.
-void find_within_rules(const Design& design, const InRunShape& certificate, const RunContext& context,
-                       RuledLetters& ruled, Redesign& result) {
-  constexpr int kMostRounds = 10;         // budget: each leaves some thousandth of what was missing
-  constexpr double kBeyond = 1.0 + 1e-9;  // rounding: on the safe side of the bound
+/// @param result  of which within_rules changes
+/// @throws InfeasibleError if no letters reach the speed
+InRunShape letters_within_rules(const Design& design, const InRunShape& certificate,
+                                const RunContext& context, RuledLetters& ruled, Redesign& result) {
   const auto lowest = [&] {
     return least_drop_beside_area(certificate, bounds_of(ruled), result.take_off, result.start_area);
   };
+  RadiusForRides radius;
+  std::optional<std::pair<InRunShape, RuledLetters>> kept;  // the one with the least r1
+  constexpr int kMostRounds = 12;  // budget: some five of them for what a load asks for
   result.within_rules = lowest();
   for (int round = 0; round < kMostRounds; ++round) {
+    const InRunShape& found = *result.within_rules;
     const std::optional<RuledBound> growth = growth_for_rides(design, result, context);
-    if (!growth) return;
-    tighten(ruled.radius, kBeyond * growth->value * result.within_rules.r1, *growth->rule, 1.0,
-            growth->by_speed);
+    const bool keeps = !growth || RadiusForRides::keeps(growth->value);
+    if (keeps && (!kept || found.r1 < kept->first.r1)) kept = {found, ruled};
+    // With the r1 that rules on the letters ask for, or one that is lower for being larger, no load holds it.
+    const bool is_free = round == 0 || !ruled.radius || found.r1 > ruled.radius->value;
+    if (!growth || (keeps && is_free) || RadiusForRides::keeps_barely(growth->value)) break;
+    ruled.radius = RuledBound{radius.after(found.r1, growth->value), growth->rule, growth->by_speed};
     result.within_rules = lowest();
   }
+  if (kept) std::tie(*result.within_rules, ruled) = *kept;
+  return *result.within_rules;
+}
+
+/// Of letters within the rules, where there are any.
+void add_prices(const TakeOff& take_off, const RuledLetters& ruled, Redesign& result) {
+  const InRunShape& letters = *result.within_rules;
+  try {
+    result.prices = prices_of(letters, take_off, ruled);
+  } catch (const InfeasibleError&) {
+    return;  // no letters near them reach the speed
+  }
+  constexpr double kJust = 1.0 + 1e-6;  // rounding: of a straight that gamma has given way for
+  constexpr double kHardly = 1e-6;      // accuracy: of one that is hardly there [m]
+  const bool just_fits = InRun(letters).transition_begins() <= kJust * result.start_area + kHardly;
+  LetterPrice& gamma = result.prices.front();
+  gamma.by_start_area =
+      just_fits && ruled.steepest && letters.gamma.radians() < ruled.steepest->value && gamma.rule.empty();
 }
 
 }  // namespace
@@ -700,7 +790,8 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   result.take_off = take_off_of(design, options, track.centerline);
   const TakeOff& take_off = result.take_off;
   const double v0 = design.hill.design_speed.value_or(take_off.speed);
-  RuledLetters ruled = ruled_letters(design, rule_measurements(design, track), v0);
+  const Measurements measurements = rule_measurements(design, track);
+  RuledLetters ruled = ruled_letters(design, measurements, v0);
   if (design.hill.design_speed) {  // rules count with that speed, whatever the take-off's is
     for (auto* const bound : {&ruled.radius, &ruled.table}) {
       if (*bound) (*bound)->by_speed = 0.0;
@@ -714,18 +805,17 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
     result.shapes.push_back(
         lettered("its letters, at that speed", take_off, [&] { return reaching(certificate, take_off); }));
   }
-  find_within_rules(design, certificate, context, ruled, result);
-  result.shapes.push_back(
-      ridden("its letters within the rules", std::make_shared<const InRun>(result.within_rules), take_off));
-  result.shapes.back().letters = result.within_rules;
-  result.prices = prices_of(result.within_rules, take_off, ruled);
-  constexpr double kJust = 1.0 + 1e-6;  // rounding: of a straight that gamma has given way for
-  const bool just_fits = InRun(result.within_rules).transition_begins() <= kJust * result.start_area;
-  result.prices.front().by_start_area = just_fits && ruled.steepest &&
-                                        result.within_rules.gamma.radians() < ruled.steepest->value &&
-                                        result.prices.front().rule.empty();
+  result.shapes.push_back(lettered(std::string(kWithinRules), take_off, [&] {
+    return letters_within_rules(design, certificate, context, ruled, result);
+  }));
+  if (result.shapes.back().letters) {
+    add_prices(take_off, ruled, result);
+  } else {
+    result.within_rules.reset();
+  }
   const double radius = ruled.radius ? ruled.radius->value : certificate.r1;
-  add_comparisons(certificate, take_off, v0 * v0 / radius, result.shapes);
+  const BendBounds bounds = bend_bounds(design, measurements, take_off.speed * take_off.speed / radius);
+  add_comparisons(certificate, take_off, bounds, result.shapes);
   const Problem places = places_to_edge(design, result.shapes.front().ends);
   FreeShape search(design, options, certificate, ruled, take_off, places);
   result.shapes.push_back(free_shape(search, context, result));
@@ -746,6 +836,15 @@ std::optional<Issue> Redesign::search_problem() const {
                early ? hint_to_search_on(search->interrupted) : "another goal; more time would not help"};
 }
 
+std::optional<Issue> Redesign::letters_problem() const {
+  if (within_rules) return {};
+  const auto of_letters = std::find_if(shapes.begin(), shapes.end(),
+                                       [](const RedesignShape& shape) { return shape.name == kWithinRules; });
+  const std::string why = of_letters == shapes.end() ? std::string() : ": " + of_letters->problem;
+  return Issue{"", "there are no letters within the rules" + why, "",
+               "another --speed, or rules of your own that leave more room"};
+}
+
 Design redesigned(const Design& design, const Redesign& found, bool free) {
   Design result = design;
   const RedesignShape& shape = found.shapes.back();
@@ -755,6 +854,7 @@ Design redesigned(const Design& design, const Redesign& found, bool free) {
   // Rules count with the speed that it was found for.
   if (!result.hill.design_speed) result.hill.design_speed = found.take_off.speed;
   const std::optional<InRunShape> made_by = free ? shape.letters : found.within_rules;
+  if (!free && !made_by) throw InfeasibleError(*found.letters_problem());
   if (made_by) {
     letters.gamma = made_by->gamma;
     letters.transition = made_by->transition;

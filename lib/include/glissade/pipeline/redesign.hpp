@@ -65,8 +65,8 @@ struct LetterPrice {
   Dimension dimension = Dimension::length;
   std::string rule;  ///< the id of the rule that the letter lies at the bound of; may be empty
   std::optional<Certainty> certainty;  ///< of that rule
-  bool by_start_area =
-      false;  ///< gamma is less steep than its rule allows, for the straight along the start area
+  /// gamma is less steep than its rule allows, for the straight along the start area, or for any straight at all
+  bool by_start_area = false;
 };
 
 /// A certificate beside what the rules would allow.
@@ -75,14 +75,18 @@ struct Redesign {
   double start_area = 0.0;            ///< along which gates lie; 0: none is given [m]
   TakeOff take_off;                   ///< at its speed all shapes are compared, but that of highest speed
   std::vector<RedesignShape> shapes;  ///< the certificate first, the free shape last
-  InRunShape within_rules;            ///< the letters of the lowest certificate within the rules
-  std::vector<LetterPrice> prices;    ///< of those letters
+  /// The letters of the lowest certificate within the rules; none where no letters within them give the take-off speed: the
+  /// shape of that name says why.
+  std::optional<InRunShape> within_rules;
+  std::vector<LetterPrice> prices;  ///< of those letters; empty where there are none
   /// Of the free shape, from its start to the table. Where that ended with a worse one than a shape that is known and keeps all
   /// that was asked of it, that shape is the free one, and the message says so.
   std::optional<OptimizeReport> search;
 
   /// @return why the free shape is not known to be the best, or that there is none; none if it is
   [[nodiscard]] std::optional<Issue> search_problem() const;
+  /// @return why there are no letters within the rules; none if there are some
+  [[nodiscard]] std::optional<Issue> letters_problem() const;
 };
 
 /// Compares an in-run with others that give the same take-off speed: its own letters at the bounds of the rules, other
@@ -103,6 +107,7 @@ struct Redesign {
 
 /// The free shape, or the certificate within the rules, as a design of its own.
 /// @param free  the shape that the search found, of kind segments, or in-run where it has letters; otherwise of kind in-run
+/// @throws ConvergenceError if there is no free shape; InfeasibleError if there are no letters within the rules
 [[nodiscard]] Design redesigned(const Design& design, const Redesign& found, bool free);
 
 }  // namespace glissade

@@ -8,9 +8,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <boost/math/tools/toms748_solve.hpp>
 
 namespace glissade {
 namespace {
@@ -21,6 +25,41 @@ void require_area(double length, double start_area) {
       {"start_area",
        "the start area, " + length_text(start_area) + ", does not fit an in-run of " + length_text(length),
        "Gates lie between the start of the track and its edge.", "a shorter start area"});
+}
+
+/// How many steps a start area holds.
+/// @param key   of the step
+/// @param area  its length, or its height [m]
+/// @param high  what is said of it: "", or that it is a height
+int steps_in(const char* key, double area, const char* high, double step) {
+  constexpr double kMost = 1e5;       // taste: more gates than anyone lists
+  constexpr double kRounding = 1e-9;  // rounding: of an area that is a sum of steps
+  const double steps = std::floor(area / step * (1.0 + kRounding));
+  if (!(step > 0.0) || !(steps < kMost)) {
+    throw InputError(
+        {key, std::string(key) + ": " + length_text(step) + " is out of range",
+         "It is above 0, and a start area of " + length_text(area) + high + " holds at most 100 000.", ""});
+  }
+  return static_cast<int>(steps);
+}
+
+/// Each height is that of one place.
+void require_falling(const Centerline& track, double start_area) {
+  std::vector<double> places = {0.0, start_area};
+  const std::vector<double> breaks = track.breaks();
+  for (std::size_t i = 1; i < breaks.size() && breaks[i - 1] < start_area; ++i) {
+    const double width = std::min(breaks[i], start_area) - breaks[i - 1];
+    constexpr int kSamples = 64;  // budget: a bump between them is narrower than any that a gate stands on
+    for (int k = 1; k < kSamples; ++k) places.push_back(breaks[i - 1] + width * k / kSamples);
+  }
+  for (const double s : places) {
+    constexpr double kLevel = -1e-12;  // rounding: [rad]
+    if (track.slope_angle(s) >= kLevel) continue;
+    throw InputError(
+        {"vertical_step",
+         "vertical_step: the track rises within the start area, " + length_text(s) + " from its start",
+         "Gates a step in height apart lie on a track that falls.", "step: 0.7 m, along the track"});
+  }
 }
 
 /// A gate at an end of the start area within rounding lies there: next to the start of the track, at the start.
@@ -104,17 +143,35 @@ std::vector<Gate> even_gates(double length, double start_area, int count) {
 
 std::vector<Gate> stepped_gates(double length, double start_area, double step) {
   require_area(length, start_area);
-  constexpr double kMost = 1e5;
-  constexpr double kRounding = 1e-9;
-  const double steps = std::floor(start_area / step * (1.0 + kRounding));
-  if (!(step > 0.0) || !(steps < kMost)) {
-    throw InputError(
-        {"step", "step: " + length_text(step) + " is out of range",
-         "It is above 0, and a start area of " + length_text(start_area) + " holds at most 100 000.", ""});
-  }
+  const int steps = steps_in("step", start_area, "", step);
   std::vector<Gate> gates;
-  for (int number = 1; number <= static_cast<int>(steps) + 1; ++number) {
+  for (int number = 1; number <= steps + 1; ++number) {
     gates.push_back(gate_at(number, start_area - (number - 1) * step, length));
+  }
+  return gates;
+}
+
+std::vector<Gate> gates_by_height(const Centerline& centerline, double start_area, double step) {
+  const double length = centerline.length();
+  require_area(length, start_area);
+  require_falling(centerline, start_area);
+  const auto drop = [&](double s) { return centerline.at(s).drop; };
+  const double lowest = drop(start_area);
+  const int steps = steps_in("vertical_step", lowest, " in height", step);
+  std::vector<Gate> gates = {gate_at(1, start_area, length)};
+  for (int number = 2; number <= steps + 1; ++number) {
+    const double below = gates.back().from_start;
+    const double wanted = std::max(lowest - (number - 1) * step, 0.0);
+    const auto excess = [&](double s) { return drop(s) - wanted; };
+    double place = 0.0;
+    if (wanted > 0.0 && excess(below) > 0.0) {
+      std::uintmax_t most = 100;
+      constexpr int kBits = 50;  // accuracy: of a length along the track
+      const auto [left, right] = boost::math::tools::toms748_solve(
+          excess, 0.0, below, boost::math::tools::eps_tolerance<double>(kBits), most);
+      place = 0.5 * (left + right);
+    }
+    gates.push_back(gate_at(number, place, length));
   }
   return gates;
 }

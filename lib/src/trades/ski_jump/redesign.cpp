@@ -1,4 +1,4 @@
-// Take-off speed grows with the straight above the transition: each shape is found by bracketing that length.
+// In-runs of other shapes, each with the straight that gives the take-off speed.
 
 #include "glissade/trades/ski_jump/redesign.hpp"
 
@@ -6,74 +6,28 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "trades/ski_jump/straight.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/tools/minima.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 
 namespace glissade {
+
+using namespace trades;
+
 namespace {
-
-constexpr double kLongestStraight = 1e5;  // [m]
-constexpr int kBits = 44;                 // of a length that is bracketed
-
-/// Exit speed of a ride; 0 where the body does not arrive, which a longer straight would mend.
-double exit_speed(CenterlinePtr track, const TakeOff& take_off) {
-  const Motion motion(std::move(track), take_off.body, take_off.gravity);
-  return motion.arrived() ? motion.exit_speed() : 0.0;
-}
 
 std::string speed_words(double speed) {
   return rounded_text(speed, 5) + " m/s";
-}
-
-[[noreturn]] void refuse_too_slow(const TakeOff& take_off) {
-  throw InfeasibleError({"take-off speed",
-                         "take-off speed: " + speed_words(take_off.speed) +
-                             " is out of reach of this body, however high the start is",
-                         "Friction and drag take all that the slope gives.",
-                         "a steeper straight, less friction or drag, or a lower speed"});
-}
-
-/// A root of a function that grows, between two places where its sign differs.
-double root_between(const std::function<double(double)>& excess, double low, double high) {
-  std::uintmax_t most = 60;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      excess, low, high, boost::math::tools::eps_tolerance<double>(kBits), most);
-  return std::fabs(excess(left)) < std::fabs(excess(right)) ? left : right;
-}
-
-/// The straight at which a take-off speed is reached.
-/// @param speed  at the edge with a straight of this length [m]
-double straight_for(const TakeOff& take_off, const std::function<double(double)>& speed) {
-  if (!(take_off.speed > 0.0 && std::isfinite(take_off.speed))) {
-    throw InputError({"take-off speed",
-                      "take-off speed: " + exact_text(take_off.speed) + " m/s is not a finite speed above 0",
-                      "It is what the straight is as long as.", "25 m/s for a large hill"});
-  }
-  const auto excess = [&](double straight) { return speed(straight) - take_off.speed; };
-  constexpr double kShortest = 1e-9;  // [m]
-  if (excess(kShortest) > 0.0) {
-    throw InfeasibleError(
-        {"take-off speed",
-         "take-off speed: " + speed_words(take_off.speed) + " is less than the transition alone gives",
-         "Even a start at E1 is too high.", "a smaller r1, or a higher speed"});
-  }
-  double high = 16.0;
-  while (excess(high) < 0.0) {
-    high *= 2.0;
-    if (high > kLongestStraight) refuse_too_slow(take_off);
-  }
-  return root_between(excess, kShortest, high);
 }
 
 double drop_of(const InRunShape& shape) {
@@ -89,25 +43,51 @@ InRunShape reaching(InRunShape shape, const TakeOff& take_off) {
     longer.length = below + straight;
     return longer;
   };
-  const double straight = straight_for(take_off, [&](double length) {
+  const Straight straight = straight_for(take_off, [&](double length) {
     return exit_speed(std::make_shared<const InRun>(with(length)), take_off);
   });
-  return with(straight);
+  return with(required(straight, take_off));
 }
 
-DropSlopes drop_slopes(const InRunShape& shape, const TakeOff& take_off) {
-  const auto slope = [&](double step, const std::function<void(InRunShape&, TakeOff&, double)>& change) {
-    const auto drop = [&](double by) {
-      InRunShape other = shape;
-      TakeOff wanted = take_off;
-      change(other, wanted, by);
-      return drop_of(reaching(other, wanted));
-    };
-    return (drop(step) - drop(-step)) / (2.0 * step);
+namespace {
+
+/// A change of letters or of the take-off speed by a step.
+using Change = std::function<void(InRunShape&, TakeOff&, double)>;
+
+/// d(drop)/d(step). By central differences; where on one side no straight gives the take-off speed by those of the other.
+double slope_by(const InRunShape& shape, const TakeOff& take_off, double step, const Change& change) {
+  const auto drop = [&](double by) {
+    InRunShape other = shape;
+    TakeOff wanted = take_off;
+    change(other, wanted, by);
+    return drop_of(reaching(other, wanted));
   };
-  constexpr double kAngle = 1e-4;   // [rad]
-  constexpr double kLength = 1e-2;  // [m]
-  constexpr double kSpeed = 1e-3;   // [m/s]
+  const auto drop_if_any = [&](double by) -> std::optional<double> {
+    try {
+      return drop(by);
+    } catch (const InfeasibleError&) {
+      return {};
+    } catch (const InputError&) {  // letters that make no in-run
+      return {};
+    }
+  };
+  const std::optional<double> above = drop_if_any(step);
+  const std::optional<double> below = drop_if_any(-step);
+  if (above && below) return (*above - *below) / (2.0 * step);
+  if (!above && !below) return drop(step);  // says what is in the way
+  const double side = above ? step : -step;
+  return (4.0 * (above ? *above : *below) - 3.0 * drop(0.0) - drop(2.0 * side)) / (2.0 * side);
+}
+
+}  // namespace
+
+DropSlopes drop_slopes(const InRunShape& shape, const TakeOff& take_off) {
+  const auto slope = [&](double step, const Change& change) {
+    return slope_by(shape, take_off, step, change);
+  };
+  constexpr double kAngle = 1e-4;   // accuracy: [rad]
+  constexpr double kLength = 1e-2;  // accuracy: [m]
+  constexpr double kSpeed = 1e-3;   // accuracy: [m/s]
   DropSlopes slopes;
   slopes.by_gamma = slope(kAngle, [](InRunShape& of, TakeOff& /*to*/, double by) {
     of.gamma = Angle::from_radians(of.gamma.radians() + by);
@@ -119,87 +99,6 @@ DropSlopes drop_slopes(const InRunShape& shape, const TakeOff& take_off) {
   slopes.by_t = slope(kLength, [](InRunShape& of, TakeOff& /*to*/, double by) { of.t += by; });
   slopes.by_speed = slope(kSpeed, [](InRunShape& /*of*/, TakeOff& to, double by) { to.speed += by; });
   return slopes;
-}
-
-namespace {
-
-/// A letter of an in-run that may change, with the sides that it keeps to.
-struct FreeLetter {
-  double lowest;
-  double highest;
-  std::function<double(const InRunShape&)> value;
-  std::function<void(InRunShape&, double)> set;
-};
-
-FreeLetter free_letter(const Range& bound, double now, std::function<double(const InRunShape&)> value,
-                       std::function<void(InRunShape&, double)> set) {
-  FreeLetter letter{bound.lowest.value_or(now), bound.highest.value_or(now), std::move(value),
-                    std::move(set)};
-  if (bound.lowest && !bound.highest) letter.highest = std::max(now, letter.lowest);
-  if (bound.highest && !bound.lowest) letter.lowest = std::min(now, letter.highest);
-  if (!(letter.lowest <= letter.highest)) {
-    throw InputError({"bounds",
-                      "a letter's lowest bound, " + exact_text(letter.lowest) + ", is above its highest, " +
-                          exact_text(letter.highest),
-                      "Nothing lies between them.", ""});
-  }
-  return letter;
-}
-
-std::vector<FreeLetter> free_letters(const InRunShape& shape, const LetterBounds& bounds) {
-  return {free_letter(
-              bounds.gamma, shape.gamma.radians(), [](const InRunShape& of) { return of.gamma.radians(); },
-              [](InRunShape& of, double value) { of.gamma = Angle::from_radians(value); }),
-          free_letter(
-              bounds.r1, shape.r1, [](const InRunShape& of) { return of.r1; },
-              [](InRunShape& of, double value) { of.r1 = value; }),
-          free_letter(
-              bounds.t, shape.t, [](const InRunShape& of) { return of.t; },
-              [](InRunShape& of, double value) { of.t = value; })};
-}
-
-/// The value of a letter with the least drop: an end of its range, or where the drop is least between them.
-double best_value(const InRunShape& shape, const FreeLetter& letter, const TakeOff& take_off) {
-  const auto drop = [&](double value) {
-    InRunShape other = shape;
-    letter.set(other, value);
-    return drop_of(reaching(other, take_off));
-  };
-  double best = letter.lowest;
-  double least = drop(best);
-  const auto see = [&](double value) {
-    const double there = drop(value);
-    if (there < least) {
-      best = value;
-      least = there;
-    }
-  };
-  if (letter.lowest == letter.highest) return best;
-  see(letter.highest);
-  constexpr int kMinimumBits = 20;
-  std::uintmax_t most = 30;
-  see(boost::math::tools::brent_find_minima(drop, letter.lowest, letter.highest, kMinimumBits, most).first);
-  return best;
-}
-
-}  // namespace
-
-InRunShape least_drop_in_run(const InRunShape& shape, const LetterBounds& bounds, const TakeOff& take_off) {
-  const std::vector<FreeLetter> letters = free_letters(shape, bounds);
-  InRunShape best = shape;
-  for (const FreeLetter& letter : letters) {
-    letter.set(best, std::clamp(letter.value(best), letter.lowest, letter.highest));
-  }
-  best = reaching(best, take_off);
-  constexpr int kMostRounds = 8;
-  constexpr double kGain = 1e-9;  // [m]
-  for (int round = 0; round < kMostRounds; ++round) {
-    const double before = drop_of(best);
-    for (const FreeLetter& letter : letters) letter.set(best, best_value(best, letter, take_off));
-    best = reaching(best, take_off);
-    if (before - drop_of(best) < kGain) break;
-  }
-  return best;
 }
 
 namespace {
@@ -222,10 +121,11 @@ ClothoidSpline with_bend(const InRunShape& shape, double straight, std::vector<C
 /// @param bend  the pieces of the bend below a straight of this length
 ClothoidSpline reaching_with(const InRunShape& shape, const TakeOff& take_off,
                              const std::function<std::vector<ClothoidSegment>(double)>& bend) {
-  const double straight = straight_for(take_off, [&](double length) {
+  const auto speed = [&](double length) {
     return exit_speed(std::make_shared<const ClothoidSpline>(with_bend(shape, length, bend(length))),
                       take_off);
-  });
+  };
+  const double straight = required(straight_for(take_off, speed), take_off);
   return with_bend(shape, straight, bend(straight));
 }
 
@@ -257,34 +157,40 @@ std::vector<ClothoidSegment> power_bend(const InRunShape& shape) {
   return pieces;
 }
 
-/// Slope angle and squared speed along a bend whose v^2/radius is prescribed.
+/// Slope angle and squared speed along a bend on which kappa v/(1 - kappa h) is prescribed: what curvature adds to the load
+/// (docs/theory.md, laws of motion).
 class LoadBend {
  public:
-  LoadBend(const InRunShape& shape, double radial_load, const TakeOff& take_off)
+  /// @param straight  above the bend [m]
+  /// @param v         squared speed at E1
+  LoadBend(const InRunShape& shape, double radial_load, const TakeOff& take_off, double straight, double v)
       : gamma_(shape.gamma.radians()),
         turn_(shape.gamma.radians() - shape.alpha.radians()),
         radial_(radial_load),
-        mu_(take_off.body.friction.coefficient()),
-        drag_(take_off.body.drag_per_metre),
-        gravity_(take_off.gravity) {}
+        straight_(straight),
+        v_(v),
+        body_(take_off.body),
+        gravity_(take_off.gravity),
+        height_(body_.law ? body_.law->centre_height() : 0.0),
+        gain_(2.0 / (body_.law ? body_.law->inertia() : 1.0)) {}
 
-  /// @param v  squared speed at E1
-  [[nodiscard]] std::vector<ClothoidSegment> below(double v) const {
-    const auto missing = [&](double length) { return turned(length, v, nullptr) - turn_; };
+  [[nodiscard]] std::vector<ClothoidSegment> pieces() const {
+    const auto missing = [&](double length) { return turned(length, nullptr) - turn_; };
+    constexpr double kLongestBend = 1e5;  // taste: no hill is as long [m]
     double high = 10.0;
-    while (missing(high) < 0.0 && high < kLongestStraight) high *= 2.0;
+    while (missing(high) < 0.0 && high < kLongestBend) high *= 2.0;
     constexpr double kShortestBend = 1e-6;  // [m] taste: no bend of a hill
-    if (!(missing(kShortestBend) < 0.0 && missing(high) >= 0.0)) refuse_load(v);
+    if (!(missing(kShortestBend) < 0.0 && missing(high) >= 0.0)) refuse_load();
     std::vector<ClothoidSegment> pieces;
-    static_cast<void>(turned(root_between(missing, kShortestBend, high), v, &pieces));
+    static_cast<void>(turned(root_between(missing, kShortestBend, high), &pieces));
     return pieces;
   }
 
  private:
-  [[noreturn]] void refuse_load(double v) const {
+  [[noreturn]] void refuse_load() const {
     throw InputError({"radial_load",
                       "radial_load: " + exact_text(radial_) + " m/s^2 gives no bend for a body with " +
-                          speed_words(std::sqrt(v)) + " where it begins",
+                          speed_words(std::sqrt(v_)) + " where it begins",
                       "The bend is shorter than 0.001 mm, or the body comes to a stand in it.",
                       "7.14 m/s^2"});
   }
@@ -292,31 +198,43 @@ class LoadBend {
     constexpr double kRamp = 0.25;
     return std::min({share / kRamp, 1.0, (1.0 - share) / kRamp});
   }
+  [[nodiscard]] double curvature(double v, double radial) const { return radial / (v + radial * height_); }
+
   /// d(squared speed)/ds
-  [[nodiscard]] double growth(double zeta, double v, double radial) const {
-    return 2.0 * (gravity_ * (math::sin(zeta) - mu_ * math::cos(zeta)) - mu_ * radial - drag_ * v);
+  [[nodiscard]] double growth(double s, double zeta, double v, double radial) const {
+    double mu = body_.friction.coefficient();
+    for (const FrictionChange& change : body_.friction_changes) {
+      if (s >= change.from) mu = change.friction.coefficient();
+    }
+    const double c = body_.law ? mu * body_.law->resistance(s, v).factor : mu;
+    const double air =
+        std::sqrt(std::max(v, 0.0)) + body_.head_wind;  // none of a trial that comes to a stand
+    const double drag = body_.drag_per_metre * air * std::fabs(air);
+    const double load = gravity_ * math::cos(zeta) + radial;
+    return gain_ * (1.0 - curvature(v, radial) * height_) * (gravity_ * math::sin(zeta) - drag - c * load);
   }
 
   /// The angle by which a bend of this length turns, by the classical Runge-Kutta method.
-  double turned(double length, double v, std::vector<ClothoidSegment>* pieces) const {
+  double turned(double length, std::vector<ClothoidSegment>* pieces) const {
     constexpr int kPieces = 200;
     const double ds = length / kPieces;
     double zeta = gamma_;
+    double v = v_;
     for (int i = 0; i < kPieces; ++i) {
-      const double share = static_cast<double>(i) / kPieces;
       const auto rate = [&](double at, double angle, double squared) {
-        const double radial = radial_ * load_at(share + at / kPieces);
-        return std::pair(-radial / squared, growth(angle, squared, radial));
+        const double share = (static_cast<double>(i) + at) / kPieces;
+        const double radial = radial_ * load_at(share);
+        return std::pair(-curvature(squared, radial),
+                         growth(straight_ + share * length, angle, squared, radial));
       };
       const auto [z1, v1] = rate(0.0, zeta, v);
       const auto [z2, v2] = rate(0.5, zeta + 0.5 * ds * z1, v + 0.5 * ds * v1);
       const auto [z3, v3] = rate(0.5, zeta + 0.5 * ds * z2, v + 0.5 * ds * v2);
       const auto [z4, v4] = rate(1.0, zeta + ds * z3, v + ds * v3);
-      const double begin = -z1;
       zeta += ds / 6.0 * (z1 + 2.0 * z2 + 2.0 * z3 + z4);
       v += ds / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4);
-      const double end = radial_ * load_at(static_cast<double>(i + 1) / kPieces) / v;
-      if (pieces != nullptr) pieces->push_back({ds, begin, end});
+      const double end = curvature(v, radial_ * load_at(static_cast<double>(i + 1) / kPieces));
+      if (pieces != nullptr) pieces->push_back({ds, -z1, end});
     }
     return gamma_ - zeta;
   }
@@ -324,9 +242,12 @@ class LoadBend {
   double gamma_;
   double turn_;
   double radial_;
-  double mu_;
-  double drag_;
+  double straight_;
+  double v_;
+  const Body& body_;
   double gravity_;
+  double height_;
+  double gain_;
 };
 
 }  // namespace
@@ -341,7 +262,6 @@ ClothoidSpline load_controlled_in_run(const InRunShape& shape, double radial_loa
     throw InputError({"", "radial_load: " + exact_text(radial_load) + " m/s^2 is not positive and finite",
                       "It is what the bend presses a jumper down with.", "7.14 m/s^2"});
   }
-  const LoadBend bend(shape, radial_load, take_off);
   const auto straight_of = [&](double length) {
     return std::make_shared<const ClothoidSpline>(shape.gamma,
                                                   std::vector<ClothoidSegment>{{length, 0.0, 0.0}});
@@ -350,7 +270,7 @@ ClothoidSpline load_controlled_in_run(const InRunShape& shape, double radial_loa
   constexpr double kLeast = 1.0;  // [m]
   return reaching_with(shape, take_off, [&](double straight) {
     const double speed = exit_speed(straight_of(std::max(straight, kLeast)), take_off);
-    return bend.below(std::max(speed * speed, 1.0));
+    return LoadBend(shape, radial_load, take_off, straight, std::max(speed * speed, 1.0)).pieces();
   });
 }
 

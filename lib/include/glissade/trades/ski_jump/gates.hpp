@@ -29,6 +29,12 @@ struct Gate {
 /// @throws InputError as even_gates(), or if there would be more than 100 000
 [[nodiscard]] std::vector<Gate> stepped_gates(double length, double start_area, double step);
 
+/// Gates that follow each other by a step in height, from the lowest place of a start area upwards, as many as it holds.
+/// Accuracy: 1e-12 of the length of the track, where that falls by more than rounding.
+/// @param step  in height [m]; > 0
+/// @throws InputError as stepped_gates(), or if the track rises within the start area
+[[nodiscard]] std::vector<Gate> gates_by_height(const Centerline& centerline, double start_area, double step);
+
 /// How a speed answers to small changes.
 struct SpeedSlopes {
   double by_friction = 0.0;  ///< du/dmu [m/s]

@@ -36,21 +36,25 @@ struct DropSlopes {
   double by_speed = 0.0;  ///< [m/(m/s)]
 };
 
-/// By central differences of reaching().
+/// By differences of reaching(): central ones, or those of one side where on the other one no straight gives the speed.
 /// Accuracy: 1e-6 relative.
+/// @throws as reaching()
 [[nodiscard]] DropSlopes drop_slopes(const InRunShape& shape, const TakeOff& take_off);
 
 /// What the letters of an in-run may be; a side that is left out keeps the letter from passing what it is now.
 struct LetterBounds {
-  Range gamma;  ///< [rad]
-  Range r1;     ///< [m]
-  Range t;      ///< [m]
+  Range gamma;            ///< [rad]
+  Range r1;               ///< [m]
+  Range t;                ///< [m]
+  double straight = 0.0;  ///< above the transition, at least: a start area [m]
 };
 
-/// Of all in-runs within the bounds the one with the least drop from start to edge; alpha, which the jump decides, and the
-/// kind of transition stay.
-/// Method: one letter after the other, each at the best of its bounds and the places between, until none gains.
-/// @throws as reaching(), InputError if a bound's sides are the wrong way round
+/// Of all in-runs within the bounds that reach the take-off speed the one with the least drop from start to edge; alpha, which
+/// the jump decides, and the kind of transition stay.
+/// Method: one letter after the other, each at the best of its bounds and the places between, until none gains; where the straight
+///   is as short as it may be, two together. Letters that do not reach the speed, with whatever straight, are passed by.
+/// Accuracy: 1e-6 of the drop against a grid of the bounds, where one valley holds it.
+/// @throws as reaching() if no letters within the bounds reach it, InputError if a bound's sides are the wrong way round
 [[nodiscard]] InRunShape least_drop_in_run(const InRunShape& shape, const LetterBounds& bounds,
                                            const TakeOff& take_off);
 
@@ -66,7 +70,8 @@ struct LetterBounds {
 [[nodiscard]] ClothoidSpline power_in_run(const InRunShape& shape, const TakeOff& take_off);
 
 /// A transition shaped by the load: v^2/radius grows evenly from 0 over the first quarter, keeps, and fades evenly over
-/// the last quarter of the transition, so that curvature jumps neither at E1 nor at E2.
+/// the last quarter of the transition, so that curvature jumps neither at E1 nor at E2. The ride is the body's own, in wind and
+/// with its centre of mass where that runs: v^2/radius is of the way of that, what the load is above the weight's share.
 ///
 /// Source: after Palej and Filipowska, Mathematical modelling of the inrun profile of a ski jumping hill with the
 ///   controlled track reaction force, J. Theor. Appl. Mech. 47(1), 2009: a prescribed reaction and a boundary-value
