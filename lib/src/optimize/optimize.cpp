@@ -772,7 +772,7 @@ std::optional<Problem> ending_before_lowest_speed(const Problem& problem) {
   const double longest = limits.lowest_speed_from * (1.0 - kBefore);
   if (!limits.speed.lowest || limits.arc_length.lowest.value_or(0.0) > longest) return std::nullopt;
   const bool is_point = problem.finish.kind == FinishKind::point;
-  const double distance = std::hypot(problem.endpoints.run, problem.endpoints.drop);
+  const double distance = math::hypot(problem.endpoints.run, problem.endpoints.drop);
   if (!(longest > (is_point ? distance : limits.lead_in + limits.lead_out))) return std::nullopt;
   Problem shorter = problem;
   shorter.limits.speed.lowest.reset();

@@ -711,8 +711,8 @@ class RadiusForRides {
 
   /// @return the radius to try next
   double after(double radius, double growth) {
-    const double x = std::log(radius);
-    const double y = std::log(growth);
+    const double x = math::log(radius);
+    const double y = math::log(growth);
     double slope = -1.0;
     if (before_ && before_->first != x) {
       const double secant = (y - before_->second) / (x - before_->first);
@@ -720,7 +720,7 @@ class RadiusForRides {
       if (secant < -1.0 / kMost && secant > -kMost) slope = secant;
     }
     before_ = {x, y};
-    return std::exp(x - (y + kRoom) / slope);
+    return math::exp(x - (y + kRoom) / slope);
   }
 
  private:

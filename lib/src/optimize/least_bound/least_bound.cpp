@@ -474,9 +474,8 @@ class LeastBound {
   /// A rate of curvature by which a track is an arc, or a straight line: its slope is off one's by less than a billionth. A load of
   /// less than a hundred thousandth of the weight.
   [[nodiscard]] bool is_as_good_as_none(double bound) const {
-    constexpr double kTurned = 1e-9;  // accuracy: a hundredth of that of a limit [rad]
-    constexpr double kOfWeight =
-        1e-5;  // accuracy: ten times as much as searches press a body that flies against its track
+    constexpr double kTurned = 1e-9;    // accuracy: a hundredth of that of a limit [rad]
+    constexpr double kOfWeight = 1e-5;  // accuracy: ten times what searches keep loads above 0 by
     if (name_.id == LimitId::highest_normal_load) return bound < kOfWeight * asked_.gravity;
     const double length = best_.centerline->length();
     return bound * length * length < kTurned;
