@@ -163,6 +163,7 @@ struct Judgement {
 ///         warning.
 [[nodiscard]] RuleVerdict worst(const std::vector<Judgement>& judgements);
 
+/// @param digits  significant ones of each bound
 /// @return ">= 0.25 s", "9 deg to 12 deg": a bound for people
 [[nodiscard]] std::string bound_text(const Rule& rule, int digits = 4);
 

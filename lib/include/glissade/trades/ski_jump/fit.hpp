@@ -17,8 +17,7 @@ struct SpeedReading {
   double from_start = 0.0;  ///< where the rides began, from the start of the track [m]
   double place = 0.0;  ///< where the speed was measured, from the start of the track [m]; above `from_start`
   double speed = 0.0;  ///< [m/s]; > 0
-  Body body =
-      {};  ///< that the design has there: its wind, centre height, entry speed, and its own friction and drag
+  Body body = {};      ///< of its design, with the wind, entry speed, friction and drag of that
   double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
   double count = 1.0;                ///< how many rides it is the mean of; told, not weighted by
 };
@@ -49,14 +48,14 @@ struct SpeedFitOptions {
   std::optional<double> drag;      ///< held at this [1/m]
 };
 
-/// Fits one friction and one drag to measured speeds of all hills by least squares, every reading alike: what hills differ by is far more than
-/// the error of a mean. Rides are the referee's, derivatives those of speed_slopes().
+/// Fits one friction and one drag to measured speeds of all hills by least squares, every reading alike: what hills differ by is
+/// far more than the error of a mean. Everything else is each reading's own: height of the centre of mass, wind, entry speed,
+/// gravity. Rides are the referee's, derivatives those of speed_slopes().
 ///
 /// Uncertainties come from the scatter of the residuals (their sum of squares over readings less parameters) and the
 /// derivatives; where one is at its bound, none, they are those of both as if it were not: the truth may lie beside the
 /// bound, and then the other is less by what it takes. End speeds tell friction and drag apart badly: their correlation is near -1, and the sum of what both take
 /// away is known much better than either.
-/// Everything else is each reading's own: height of the centre of mass, wind, entry speed, gravity.
 /// @throws InputError if there are fewer readings than parameters, a reading has no track, is out of its range or a
 ///   twentieth above free fall (unless the wind comes from behind), a body without what is fitted does not come to its
 ///   place, or rides of one length to one place do not tell friction and drag apart
