@@ -74,10 +74,9 @@ void check_in_run(const Design& design, Collected& findings) {
     const InRun track(in_run.shape());
     const std::optional<double> start_area = in_run.start_area();
     if (start_area && *start_area > track.transition_begins()) {
+      const auto [area, straight] = texts_apart(*start_area, track.transition_begins(), &length_text);
       report(findings, {in_run.es ? "centerline.es" : "centerline.e2", "centerline"},
-             {"",
-              "es: the start area, " + length_text(*start_area) + ", is longer than the straight, " +
-                  length_text(track.transition_begins()),
+             {"", "es: the start area, " + area + ", is longer than the straight, " + straight,
               "Gates lie on the straight, above the transition.",
               "a shorter start area, a longer in-run, or a smaller r1"});
     }

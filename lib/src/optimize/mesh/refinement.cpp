@@ -119,18 +119,19 @@ MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& 
 
 namespace {
 
-/// Fine knots go along with the pieces that they lie in: elsewhere what they add to the curvature would no longer fade out at the
-/// pieces' ends.
+/// Fine knots of a piece that shrinks go along: beyond its ends what they add to the curvature would no longer fade out there. Those
+/// of a piece that grows stay where they are.
 /// @param before  the mesh whose knots were moved
-/// @param grown   one entry a piece: by which its curvature has grown
-void carry_fine_knots(const Mesh& before, const std::vector<double>& grown, Mesh& after) {
+/// @param grown   by which the curvature within pieces that shrank has grown
+void carry_fine_knots(const Mesh& before, double grown, Mesh& after) {
   std::size_t piece = 0;
   for (std::size_t k = 0; k < before.fine.size(); ++k) {
     while (before.fine[k] >= before.knots[piece + 1]) ++piece;
-    const double share =
-        (before.fine[k] - before.knots[piece]) / (before.knots[piece + 1] - before.knots[piece]);
-    after.fine[k] = after.knots[piece] + share * (after.knots[piece + 1] - after.knots[piece]);
-    after.fine_turns[k] = grown[piece] * before.fine_turns[k];
+    const double width = before.knots[piece + 1] - before.knots[piece];
+    const double now = after.knots[piece + 1] - after.knots[piece];
+    if (!(now < width)) continue;
+    after.fine[k] = after.knots[piece] + (before.fine[k] - before.knots[piece]) / width * now;
+    after.fine_turns[k] = grown * before.fine_turns[k];
   }
 }
 
@@ -159,7 +160,7 @@ std::optional<MeshTrack> with_narrow_jumps(const Transcription& track, const Vec
     knots[i + 1] = middle + 0.5 * kNarrow;
     any = true;
   }
-  carry_fine_knots(track.mesh(), std::vector<double>(knots.size() - 1, 1.0), result.mesh);
+  carry_fine_knots(track.mesh(), 1.0, result.mesh);
   return any ? std::optional(std::move(result)) : std::nullopt;
 }
 
@@ -177,7 +178,6 @@ std::optional<MeshTrack> with_tighter_corners(const Transcription& track, const 
   // Changes of friction hold knots in place, and have corners of their own.
   if (track.has_fixed_pieces()) return std::nullopt;
   bool any = false;
-  std::vector<double> grown(knots.size() - 1, 1.0);
   for (std::size_t first = 1; first + 2 < knots.size(); ++first) {
     if (!turns(first)) continue;
     std::size_t last = first;
@@ -188,13 +188,12 @@ std::optional<MeshTrack> with_tighter_corners(const Transcription& track, const 
       for (std::size_t i = first; i <= last + 1; ++i) {
         knots[i] = 0.5 * (from + to) + kPart * (knots[i] - 0.5 * (from + to));
         if (i > first && i <= last) result.z[layout.turn(i)] /= kPart;
-        if (i <= last) grown[i] /= kPart;
       }
       any = true;
     }
     first = last + 1;
   }
-  carry_fine_knots(track.mesh(), grown, result.mesh);
+  carry_fine_knots(track.mesh(), 1.0 / kPart, result.mesh);
   return any ? std::optional(std::move(result)) : std::nullopt;
 }
 
