@@ -105,6 +105,11 @@ TEST_CASE("pieces that face the wrong way are counted and placed, each kind of t
   CHECK(crossed.self_intersections > 0);
   CHECK(crossed.inside_out_pieces == 1);
   CHECK(crossed.nested_pieces == 0);
+  // A sound piece within one that is inside out is not to blame.
+  const MeshFacts within = measure(together(flipped(block), box({5, 5, 5}, {6, 6, 6})));
+  CHECK_FALSE(within.oriented_outward);
+  CHECK(within.inside_out_pieces == 1);
+  CHECK(within.nested_pieces == 0);
   // An open one has no inside.
   TriangleMesh open = flipped(unit_cube());
   open.triangles.pop_back();

@@ -116,6 +116,8 @@ WrongPieces wrong_pieces(const std::vector<Vec3>& positions, const std::vector<F
     const std::optional<long> actual = winding.around(i);
     if (!actual) return pieces_inside_out(pieces);
     if (*actual == (faces_outward ? 0 : 1)) continue;
+    // Within one that is inside out: that one is wrong.
+    if (faces_outward && *actual < 0) continue;
     if (faces_outward) {
       add(wrong.nested, wrong.first_nested, i);
     } else {
