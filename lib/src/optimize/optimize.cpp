@@ -12,6 +12,7 @@
 #include "optimize/conflicts/energy_left.hpp"
 #include "optimize/conflicts/infeasibility.hpp"
 #include "optimize/conflicts/mean_slope.hpp"
+#include "optimize/conflicts/reach_conflict.hpp"
 #include "optimize/least_bound/least_bound.hpp"
 #include "optimize/least_bound/least_peak.hpp"
 #include "optimize/least_bound/optimize_briefly.hpp"

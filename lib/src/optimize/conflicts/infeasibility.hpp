@@ -2,6 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
+#include "optimize/conflicts/foothold.hpp"
 #include "optimize/descent/search.hpp"
 #include "optimize/problem/scaled_problem.hpp"
 
@@ -10,24 +11,6 @@
 #include <vector>
 
 namespace glissade::optimizer {
-
-/// What the reach theorem alone forbids (docs/theory.md): from rest, no track leads to a finish whose mean
-/// slope is not steeper than the steepest friction angle.
-[[nodiscard]] std::optional<Conflict> beyond_reach(const Problem& problem);
-
-/// A track that keeps all limits, to start from.
-struct Foothold {
-  std::size_t passages = 0;  ///< which of the passages it belongs to
-  Mesh mesh;
-  Vector z;
-};
-
-/// With which curve, of all that bends are looked for from, a search began.
-struct Beginning {
-  std::size_t passages = 0;
-  std::size_t curve = 0;
-  LimitName limit;  ///< that asks for bends, and gives way alone
-};
 
 /// How a problem with another bound is solved: what is said to be enough has to be. Without its functions nothing is said to be.
 struct Resolve {
@@ -38,10 +21,6 @@ struct Resolve {
   /// The optimum from its starts, or from tracks that keep the limits; none where there is none.
   std::function<std::optional<Foothold>(const Problem&)> optimum;
 };
-
-/// Searches on from tracks that keep all limits at the stations of their meshes; of several the best one counts.
-/// @return whether to look no further: a track was found that keeps them everywhere, or the search was asked to end
-using Leads = std::function<bool(const std::vector<Foothold>&)>;
 
 /// What stands against all limits together, where nothing was found that keeps them.
 struct Explanation {

@@ -2,7 +2,7 @@
 
 #include "glissade/optimize/optimize.hpp"
 
-#include "optimize/conflicts/infeasibility.hpp"
+#include "optimize/conflicts/foothold.hpp"
 
 #include <cmath>
 #include <optional>
