@@ -7,7 +7,7 @@
 #include "glissade/pipeline/probes.hpp"
 #include "glissade/pipeline/rules.hpp"
 
-#include "pipeline/extremes.hpp"
+#include "pipeline/ride/extremes.hpp"
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"

@@ -1,6 +1,6 @@
 // Parts of a build against what its design keeps clear of.
 
-#include "pipeline/parts_clearance.hpp"
+#include "pipeline/build/parts_clearance.hpp"
 
 #include "glissade/core/math.hpp"
 #include "glissade/pipeline.hpp"

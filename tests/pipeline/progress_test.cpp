@@ -2,7 +2,7 @@
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/json.hpp"
 
-#include "pipeline/fabricate.hpp"
+#include "pipeline/build/fabricate.hpp"
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/temp_dir.hpp"

@@ -1,6 +1,6 @@
 // The directory in which a build makes its files, when the program ends.
 
-#include "pipeline/staging.hpp"
+#include "pipeline/files/staging.hpp"
 
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/unfinished.hpp"

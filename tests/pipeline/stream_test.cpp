@@ -8,7 +8,7 @@
 #include "glissade/pipeline/rules.hpp"
 #include "glissade/trades/chute/wear.hpp"
 
-#include "pipeline/chute_rules.hpp"
+#include "pipeline/rules/chute_rules.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 

@@ -107,6 +107,7 @@ const std::map<std::string, std::vector<std::string>> kFolders = {
      {"algebra", "discretise", "problem", "descent", "mesh", "search", "conflicts", "prices", "answer",
       "least_bound"}},
     {"parts", {"curves", "bodies", "shop", "plates", "supports", "strips", "tubes", "timber", "prints"}},
+    {"pipeline", {"task", "ride", "rules", "drawings", "files", "build"}},
 };
 
 /// @return what breaks the order of folders in one file of a module; `path` is relative to the project
@@ -362,7 +363,7 @@ TEST_CASE("a limit, a format, a section and a law stand in the files that docs/d
                               "lib/src/referee/watches.cpp", "lib/src/optimize/problem/measures.cpp"});
   // One of three that a design without `export` gets, which makes it five here.
   CHECK(files_naming("write_scad|ExportFormat::scad") ==
-        std::set<std::string>{in + "core/file_format.hpp", "lib/src/pipeline/formats.cpp",
+        std::set<std::string>{in + "core/file_format.hpp", "lib/src/pipeline/files/formats.cpp",
                               in + "io/scad_file.hpp", "lib/src/io/scad_writer.cpp",
                               in + "design/design.hpp"});
   CHECK(files_naming("VChannel") ==
@@ -370,7 +371,7 @@ TEST_CASE("a limit, a format, a section and a law stand in the files that docs/d
                               "lib/src/section/cross_section.cpp", "lib/src/parts/plates/plate_section.cpp"});
   CHECK(files_naming("RollingBall|RollingDesign") ==
         std::set<std::string>{in + "motion/laws/rolling_ball.hpp", "lib/src/motion/laws/rolling_ball.cpp",
-                              in + "design/body_design.hpp", "lib/src/pipeline/body.cpp"});
+                              in + "design/body_design.hpp", "lib/src/pipeline/task/body.cpp"});
 }
 
 TEST_CASE("every constant of the search says where it comes from") {

@@ -8,8 +8,8 @@
 #include "glissade/pipeline/rules.hpp"
 
 #include "optimize/stopped.hpp"
-#include "pipeline/extremes.hpp"
-#include "pipeline/search_goes_on.hpp"
+#include "pipeline/ride/extremes.hpp"
+#include "pipeline/task/search_goes_on.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,14 +9,14 @@
 #include "glissade/trades/chute/stream.hpp"
 
 #include "optimize/stopped.hpp"
-#include "pipeline/body.hpp"
-#include "pipeline/extremes.hpp"
-#include "pipeline/friction_range.hpp"
-#include "pipeline/gates.hpp"
-#include "pipeline/hood.hpp"
-#include "pipeline/limits.hpp"
-#include "pipeline/located.hpp"
-#include "pipeline/search_goes_on.hpp"
+#include "pipeline/ride/extremes.hpp"
+#include "pipeline/ride/gates.hpp"
+#include "pipeline/task/body.hpp"
+#include "pipeline/task/friction_range.hpp"
+#include "pipeline/task/hood.hpp"
+#include "pipeline/task/limits.hpp"
+#include "pipeline/task/located.hpp"
+#include "pipeline/task/search_goes_on.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,9 +12,9 @@
 #include "glissade/solid/sweep.hpp"
 #include "glissade/trades/chute/ends.hpp"
 
-#include "pipeline/cross_section.hpp"
-#include "pipeline/friction_range.hpp"
-#include "pipeline/probes.hpp"
+#include "pipeline/ride/probes.hpp"
+#include "pipeline/task/cross_section.hpp"
+#include "pipeline/task/friction_range.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -27,7 +27,7 @@ struct FileFormat {
 };
 
 /// Every format, in the order of the enumeration: the one table that reader, names, costs and proof follow. How a
-/// format is written and read back stands in the table of lib/src/pipeline/formats.cpp.
+/// format is written and read back stands in the table of lib/src/pipeline/files/formats.cpp.
 inline constexpr std::array<FileFormat, 5> kFileFormats = {{
     {ExportFormat::stl, "stl", ".stl", ".stl", FileContent::rounded_mesh},
     {ExportFormat::stl_ascii, "stl-ascii", ".stl", ".ascii.stl", FileContent::exact_mesh},

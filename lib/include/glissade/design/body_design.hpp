@@ -11,7 +11,7 @@ namespace glissade {
 
 /// What moves, by kind. A kind names itself and its measures once: `visit` shows each to a visitor under its key in a
 /// design file, in the order in which people read them. The reader, the checks, the schema, writing back, JSON and the
-/// texts of a report are such visitors; lib/src/pipeline/body.cpp makes the law of motion of it:
+/// texts of a report are such visitors; lib/src/pipeline/task/body.cpp makes the law of motion of it:
 ///
 ///     visitor.resistance(key, example);              // BodyDesign::friction, as force over load; may be a range
 ///     visitor.length(key, value, least, most, why, example);
