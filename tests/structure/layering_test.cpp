@@ -103,6 +103,7 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
 
 /// Folders of one module, the lowest first: each may know those before it, and what lies in none of them all.
 const std::map<std::string, std::vector<std::string>> kFolders = {
+    {"centerline", {"numerics", "optima", "profile"}},
     {"optimize",
      {"algebra", "discretise", "problem", "descent", "mesh", "search", "conflicts", "prices", "answer",
       "least_bound"}},

@@ -8,7 +8,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
-#include "centerline/chebyshev_series.hpp"
+#include "centerline/numerics/chebyshev_series.hpp"
 
 #include <cmath>
 #include <cstddef>
