@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t kBand = 3;  // beside the diagonal
 // Ten times the smoothing is half again the stretch that it smooths over.
-constexpr double kMostSmoothing = 1e-3;
-constexpr double kLeastSmoothing = 1e-26;
-constexpr double kSmoothingStep = 0.1;
+constexpr double kStiffest = 1e-3;
+constexpr double kSoftest = 1e-26;
+constexpr double kSofter = 0.1;
 
 /// A symmetric positive definite matrix of few diagonals.
 class BandMatrix {
@@ -134,7 +134,7 @@ std::optional<SmoothedPoints> smoothed(const std::vector<double>& parameters,
   std::optional<SmoothedPoints> best;
   std::optional<Cost> freest;
   bool follow = true;
-  for (double smoothing = kMostSmoothing; smoothing >= kLeastSmoothing; smoothing *= kSmoothingStep) {
+  for (double smoothing = kStiffest; smoothing >= kSoftest; smoothing *= kSofter) {
     auto here = smoothed_by(rough, smoothing, points);
     if (!here) continue;
     if (!here->cost.tells(count)) break;

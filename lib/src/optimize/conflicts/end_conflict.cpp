@@ -23,7 +23,7 @@ using WouldDo = std::function<bool(const LimitName&, double)>;
 constexpr int kDirections = 2048;  // accuracy: 0.18 deg apart
 
 /// One end of the track, and the directions that it may have.
-struct End {
+struct GivenEnd {
   const char* name;
   Vec2 point;
   double flattest = 0.0;
@@ -35,8 +35,8 @@ struct End {
   [[nodiscard]] double step() const { return (steepest - flattest) / kDirections; }
 };
 
-End end_of(const char* name, Vec2 point, const Range& own, const Range& whole) {
-  End end{name, point, -kRightAngle, kRightAngle};
+GivenEnd end_of(const char* name, Vec2 point, const Range& own, const Range& whole) {
+  GivenEnd end{name, point, -kRightAngle, kRightAngle};
   for (const Range* range : {&own, &whole}) {
     if (range->lowest) end.flattest = std::max(end.flattest, *range->lowest);
     if (range->highest) end.steepest = std::min(end.steepest, *range->highest);
@@ -44,14 +44,15 @@ End end_of(const char* name, Vec2 point, const Range& own, const Range& whole) {
   return end;
 }
 
-double value_at(const End& end, double direction, const Envelope& envelope, const clearance::Region& region) {
+double value_at(const GivenEnd& end, double direction, const Envelope& envelope,
+                const clearance::Region& region) {
   const Vec2 normal{math::sin(direction), -math::cos(direction)};
   const std::array<Vec2, 2> rib{end.point - envelope.below * normal, end.point + envelope.top() * normal};
   return region.nearest(rib).value;
 }
 
 /// By how much the end lacks room in its best direction; not above 0 where it has some.
-double lacking(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles) {
+double lacking(const GivenEnd& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles) {
   double best = -core::kInfinity;
   for (int i = 0; i <= kDirections; ++i) {
     double spare = core::kInfinity;
@@ -66,7 +67,7 @@ double lacking(const End& end, const Envelope& envelope, const std::vector<task:
 }
 
 /// The largest top of the envelope that has room, the underside kept; below 0 if none does.
-double largest_top(const End& end, Envelope envelope, const std::vector<task::Obstacle>& obstacles) {
+double largest_top(const GivenEnd& end, Envelope envelope, const std::vector<task::Obstacle>& obstacles) {
   const auto fits = [&](double top) {
     envelope.above = std::min(envelope.above, top);
     envelope.headroom = top;
@@ -86,8 +87,8 @@ double largest_top(const End& end, Envelope envelope, const std::vector<task::Ob
 }
 
 /// The clearance that is left in the best direction, all other obstacles kept.
-double best_clearance(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles,
-                      const task::Obstacle& asked) {
+double best_clearance(const GivenEnd& end, const Envelope& envelope,
+                      const std::vector<task::Obstacle>& obstacles, const task::Obstacle& asked) {
   double best = -core::kInfinity;
   for (int i = 0; i <= kDirections; ++i) {
     bool kept = true;
@@ -100,8 +101,8 @@ double best_clearance(const End& end, const Envelope& envelope, const std::vecto
   return best;
 }
 
-Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector<task::Obstacle>& obstacles,
-                     const WouldDo& would_do) {
+Conflict conflict_at(const GivenEnd& end, const Envelope& envelope,
+                     const std::vector<task::Obstacle>& obstacles, const WouldDo& would_do) {
   Conflict conflict;
   std::vector<std::string> names;
   std::string remedies;
@@ -145,12 +146,12 @@ Conflict conflict_at(const End& end, const Envelope& envelope, const std::vector
 }
 
 /// The ends whose place is given, with the directions that the track may have there.
-std::vector<End> given_ends(const Problem& problem) {
+std::vector<GivenEnd> given_ends(const Problem& problem) {
   const Limits& limits = problem.limits;
   const bool from_start = problem.places_from == PlacesFrom::start;
   const bool both = problem.finish.kind == FinishKind::point;
   const Vec2 way{std::fabs(problem.endpoints.run), problem.endpoints.drop};
-  std::vector<End> ends;
+  std::vector<GivenEnd> ends;
   if (from_start || both) {
     ends.push_back(
         end_of("the start", from_start ? Vec2{} : -1.0 * way, limits.entry_slope_angle, limits.slope_angle));
@@ -170,7 +171,7 @@ std::optional<Conflict> on_other_side_at_an_end(const Problem& problem) {
     const KeepOut& area = problem.limits.keep_outs[obstacle.limit.index];
     if (area.passage == Passage::either) continue;
     const bool below = area.passage == Passage::below;
-    for (const End& end : given_ends(problem)) {
+    for (const GivenEnd& end : given_ends(problem)) {
       const std::array<Vec2, 2> place{end.point, end.point};
       if (!(obstacle.region.nearest(place).value < 0.0)) continue;
       Conflict conflict;
@@ -189,7 +190,7 @@ std::optional<Conflict> too_close_at_an_end(const Problem& problem, const WouldD
   if (limits.envelope.is_line()) return std::nullopt;
   const std::vector<task::Obstacle> obstacles = task::obstacles_of(limits);
   if (obstacles.empty()) return std::nullopt;
-  for (const End& end : given_ends(problem)) {
+  for (const GivenEnd& end : given_ends(problem)) {
     const bool given = end.flattest <= end.steepest;
     if (given && lacking(end, limits.envelope, obstacles) > 0.0) {
       return conflict_at(end, limits.envelope, obstacles, would_do);

@@ -11,7 +11,7 @@
 namespace glissade::optimizer {
 namespace {
 
-constexpr std::size_t kPieces = 24;  // taste
+constexpr std::size_t kRoughPieces = 24;  // taste
 
 Relaxed all_relaxed(const ScaledProblem& problem, const Mesh& mesh, const GuessCurve& curve,
                     SearchControl& control, StepModel model = StepModel::curved) {
@@ -155,7 +155,7 @@ Relaxed Winding::relaxed(const ScaledProblem& problem, const Mesh& mesh, const G
 void Winding::descend(const Beginning& beginning, const GuessCurve& curve) {
   if (control_.stop()) return;
   const std::shared_ptr<ScaledProblem>& problem = ways_[beginning.passages];
-  End end{beginning, {problem, mesh_of(*problem, graded_knots(curve, kPieces, 1.0), curve.length), {}}};
+  End end{beginning, {problem, mesh_of(*problem, graded_knots(curve, kRoughPieces, 1.0), curve.length), {}}};
   end.attempt.relaxed = relaxed(*problem, end.attempt.mesh, curve);
   if (end.attempt.relaxed.found.violation <= kKept) ends_.push_back(std::move(end));
 }
@@ -178,7 +178,7 @@ bool LeastViolation::from(Curves curves_of, StepModel model) {
     for (auto start = curves.begin(); start != curves.end(); ++start) {
       if (control_.stop()) return false;
       if (std::find(curves.begin(), start, *start) != start) continue;
-      const Mesh mesh = mesh_of(*ways_[way], graded_knots(*start, kPieces, 1.0), start->length);
+      const Mesh mesh = mesh_of(*ways_[way], graded_knots(*start, kRoughPieces, 1.0), start->length);
       if (from(way, mesh, *start, model)) return true;
     }
   }

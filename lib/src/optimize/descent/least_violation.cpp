@@ -21,16 +21,16 @@ constexpr double kFirmer[] = {0.1, 1e-2, 1e-4, 1e-7};  // taste
 // What is kept has to be broken by this much less each time.
 constexpr double kFalls = 0.8;  // taste
 // Where they are broken by less the end of the path is near.
-constexpr double kNear = 1e-4;  // taste
+constexpr double kNearlyKept = 1e-4;  // taste
 // A step whose model promises less, at the price 1 on the change of shape, is none.
 constexpr double kSettled = 1e-9;  // accuracy: a hundredth of that of a limit
 // So is one that promises less than this share of the violation.
 constexpr double kShare = 1e-5;  // accuracy: far below what tells one track from another
 
-class Search {
+class ViolationSearch {
  public:
-  Search(const ScaledProblem& problem, const Mesh& mesh, const Elastic& elastic, const Vector& margins,
-         SearchControl& control, StepModel model)
+  ViolationSearch(const ScaledProblem& problem, const Mesh& mesh, const Elastic& elastic,
+                  const Vector& margins, SearchControl& control, StepModel model)
       : elastic_(elastic),
         control_(control),
         model_(model),
@@ -59,7 +59,7 @@ class Search {
       const bool hopeless = kept > kFalls * kept_before;
       kept_before = kept;
       if (t_ <= kNone || all_give_way() || hopeless || control_.stop()) break;
-      if (kept <= kNear && arrive()) break;
+      if (kept <= kNearlyKept && arrive()) break;
     }
     describe(relaxed);
     return relaxed;
@@ -432,7 +432,7 @@ class Search {
 Relaxed least_violation(const ScaledProblem& problem, const Mesh& mesh, const Vector& start,
                         const Elastic& elastic, const Vector& margins, SearchControl& control,
                         StepModel model) {
-  return Search(problem, mesh, elastic, margins, control, model).run(start);
+  return ViolationSearch(problem, mesh, elastic, margins, control, model).run(start);
 }
 
 }  // namespace glissade::optimizer

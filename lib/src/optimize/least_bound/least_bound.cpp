@@ -37,7 +37,7 @@ constexpr double kSpeedReached = 1e-6;   // of the speed wanted: ten times the a
 // The least bound is looked at from so far below: a search that lost its way at it would show there.
 constexpr double kNeighbour = 1e-4;  // taste
 // From a bound that does so far down a track may lead to one that keeps a tighter one, ...
-constexpr double kLeads = 1e-2;  // taste
+constexpr double kByFar = 1e-2;  // taste
 // ... where it is faster than is asked for by such a share.
 constexpr double kSpareSpeed = 1e-2;  // taste
 // Where a descent from the best track wins less, and searches below it come to no end, it is the least beside it.
@@ -240,7 +240,7 @@ class LeastBound {
   [[nodiscard]] std::optional<Led> led_to(double bound) {
     constexpr std::size_t kMostKnots = 130;  // budget: meshes grow from one to the next
     const bool is_near = bracket_.why == Verdict::kept_by_none && bracket_.tight > 0.0 &&
-                         bound > (1.0 - kLeads) * bracket_.loose;
+                         bound > (1.0 - kByFar) * bracket_.loose;
     if (!is_near || !best_foothold_ || !best_by_speed_) return std::nullopt;
     if (best_foothold_->mesh.knots.size() > kMostKnots) return std::nullopt;
     return led_from(*best_foothold_, bound);
@@ -398,7 +398,7 @@ class LeastBound {
     if (!least) return 0.0;
     // Far above it searches come to an end sooner than just above it, and lead nearer.
     constexpr double kOfWay = 0.25;  // taste
-    if (least->bound < (1.0 - kLeads) * bracket_.loose)
+    if (least->bound < (1.0 - kByFar) * bracket_.loose)
       return least->bound + kOfWay * (bracket_.loose - least->bound);
     if (verdict != Verdict::does || least->bound < below) {
       step_ = kFirstStep;
@@ -414,7 +414,7 @@ class LeastBound {
     constexpr double kAbove = 1e-6;  // taste: of the bound; its stations keep it, not what lies between them
     for (int i = 0; i < kMostLeaps && bracket_.why == Verdict::kept_by_none && !outlay_.ends(); ++i) {
       const std::optional<LeastKept> least = least_beside(bracket_.tight);
-      if (!least || !(least->bound < (1.0 - kLeads) * bracket_.loose)) return;
+      if (!least || !(least->bound < (1.0 - kByFar) * bracket_.loose)) return;
       const double bound = least->bound * (1.0 + kAbove);
       std::optional<Led> led = led_from(least->track, bound);
       if (!led || led->excess < 0.0) return;

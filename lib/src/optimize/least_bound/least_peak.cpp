@@ -25,13 +25,13 @@ constexpr std::size_t kPieces = 24;       // taste
 constexpr std::size_t kFinerPieces = 32;  // taste
 constexpr std::size_t kFollowed = 2;      // budget: ends that finer meshes follow
 constexpr int kMostRounds = 4;            // budget
-constexpr double kKept = 1e-6;            // accuracy: ten times that of a limit
+constexpr double kRestKept = 1e-6;        // accuracy: ten times that of a limit
 constexpr double kKeptTo = 1e-9;          // accuracy: a hundredth of that of a limit
 constexpr double kSame = 1e-4;            // of the peak: the accuracy of a least one
 // Below this share of a straight chute's peak the stream all but flies: nothing is won by less.
 constexpr double kAllButNone = 1e-3;  // taste
 // Above the least that a mesh finds, by these shares: the track that keeps it between the stations too.
-constexpr double kAbove[] = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // taste: tried in turn
+constexpr double kAboveLeast[] = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};  // taste: tried in turn
 
 /// What gives way.
 LimitName wear_limit() {
@@ -46,7 +46,7 @@ Elastic wear_alone(const ScaledProblem& problem) {
 }
 
 /// A track whose peak no small change lowers, on its mesh.
-struct End {
+struct PeakEnd {
   std::size_t way = 0;
   std::shared_ptr<const ScaledProblem> problem;  ///< with a bound below the peak
   Mesh mesh;
@@ -55,7 +55,7 @@ struct End {
   double peak = 0.0;   ///< [W/m^2]
 };
 
-bool less_worn(const End& a, const End& b) {
+bool less_worn(const PeakEnd& a, const PeakEnd& b) {
   return a.peak < b.peak;
 }
 
@@ -80,7 +80,7 @@ class LeastPeak {
     outlay_.add(fastest.report);
     if (!fastest.centerline) return told(std::move(fastest));
     hardly_any_ = kAllButNone * usual_peak(fastest.centerline);
-    std::optional<End> least = from_starts(0.5 * peak_of(fastest.centerline));
+    std::optional<PeakEnd> least = from_starts(0.5 * peak_of(fastest.centerline));
     std::unique_ptr<Built> best;
     for (int round = 0; least && round < kMostRounds; ++round) {
       std::unique_ptr<Built> built = built_near(*least);
@@ -100,7 +100,7 @@ class LeastPeak {
  private:
   /// The fastest track within a bound just above the least.
   struct Built {
-    End end;
+    PeakEnd end;
     Candidate candidate;
     double peak = 0.0;     ///< as the referee finds it [W/m^2]
     bool settled = false;  ///< a search from it on its own, finer mesh finds hardly less
@@ -127,23 +127,23 @@ class LeastPeak {
   }
 
   /// The least peak near a track. The bound that gives way is one that cannot be kept.
-  [[nodiscard]] std::optional<End> descended(std::size_t way, const Mesh& mesh, Vector z, double bound) {
+  [[nodiscard]] std::optional<PeakEnd> descended(std::size_t way, const Mesh& mesh, Vector z, double bound) {
     for (;; bound *= 0.5) {
       const auto problem = std::make_shared<const ScaledProblem>(scaled(within(bound), ways_[way]));
       const Vector margins(problem->limits.size(), 0.0);
       Relaxed relaxed = least_violation(*problem, mesh, z, wear_alone(*problem), margins, control_);
-      if (relaxed.found.violation > kKept) return std::nullopt;
+      if (relaxed.found.violation > kRestKept) return std::nullopt;
       const bool kept = relaxed.t <= kKeptTo;
       if (!kept || bound <= hardly_any_ || control_.stop()) {
         const double peak = bound * (1.0 + std::max(0.0, relaxed.t));
-        return End{way, problem, mesh, std::move(relaxed), bound, peak};
+        return PeakEnd{way, problem, mesh, std::move(relaxed), bound, peak};
       }
       z = relaxed.found.z;
     }
   }
 
-  [[nodiscard]] std::optional<End> from_starts(double bound) {
-    std::vector<End> ends;
+  [[nodiscard]] std::optional<PeakEnd> from_starts(double bound) {
+    std::vector<PeakEnd> ends;
     for (std::size_t way = 0; way < ways_.size(); ++way) {
       const ScaledProblem problem = scaled(within(bound), ways_[way]);
       for (const GuessCurve& start : starts(problem)) {
@@ -161,7 +161,7 @@ class LeastPeak {
     return std::move(*least);
   }
 
-  void follow(End& end) {
+  void follow(PeakEnd& end) {
     if (outlay_.ends()) return;
     const Found& found = end.relaxed.found;
     const Mesh mesh = mesh_of(
@@ -172,8 +172,8 @@ class LeastPeak {
     if (finer && finer->peak < end.peak) end = std::move(*finer);
   }
 
-  [[nodiscard]] std::unique_ptr<Built> built_near(const End& end) {
-    for (const double above : kAbove) {
+  [[nodiscard]] std::unique_ptr<Built> built_near(const PeakEnd& end) {
+    for (const double above : kAboveLeast) {
       if (outlay_.ends()) break;
       const Problem problem = within(end.peak * (1.0 + above));
       Searcher searcher(problem, options_, control_, progress_);
@@ -216,7 +216,7 @@ class LeastPeak {
   }
 
   /// What a unit of each limit is worth of the peak.
-  [[nodiscard]] static std::vector<ActiveLimit> prices(const End& end) {
+  [[nodiscard]] static std::vector<ActiveLimit> prices(const PeakEnd& end) {
     ScaledProblem problem = *end.problem;
     problem.time_weight = 1.0;
     problem.time = end.bound;

@@ -15,13 +15,13 @@ namespace glissade::optimizer {
 namespace {
 
 // A row this close to its bound may begin to bind; by so much bounds are moved, in scales.
-constexpr double kTight = 1e-6;  // accuracy: ten times that of a limit
-constexpr double kMoved = 1e-7;  // accuracy: that of a limit
+constexpr double kTouches = 1e-6;  // accuracy: ten times that of a limit
+constexpr double kMoved = 1e-7;    // accuracy: that of a limit
 // A kink is as wide however little bounds are moved; prices that change fast with a bound are as close as it was moved little.
 constexpr double kMovedLess = 0.1 * kMoved;  // taste
 constexpr double kAsWide = 0.5;              // theory: between one and a tenth
 // Prices this far apart are two, ...
-constexpr double kApart = 0.04;  // accuracy: twice that of a price
+constexpr double kPricesApart = 0.04;  // accuracy: twice that of a price
 // ... if they lie apart by this share of the greatest multiplier: what costs next to nothing changes fast.
 constexpr double kCounts = 1e-5;  // taste
 
@@ -30,7 +30,7 @@ class MovedPrograms {
  public:
   MovedPrograms(const ScaledProblem& problem, const Found& found)
       : problem_(problem), found_(found), rows_(*found.rows), state_(rows_.state(found.z, true)) {
-    set_ = rows_.candidates(state_, kTight);
+    set_ = rows_.candidates(state_, kTouches);
     for (const Row& row : found.active) {
       if (std::find(set_.begin(), set_.end(), row) == set_.end()) set_.push_back(row);
     }
@@ -170,7 +170,7 @@ std::vector<OneSidedPrice> one_sided_prices(const ScaledProblem& problem, const 
     // Multipliers of an optimum are a subgradient: a program that has them outside of its own prices was led to another set of
     // rows by what the point is still off.
     const double own = programs.own(name);
-    const double room = kApart * std::fabs(own) + programs.counts(name);
+    const double room = kPricesApart * std::fabs(own) + programs.counts(name);
     if (own < relaxing - room || own > tightening + room) continue;
     if (name.bound == Bound::exactly) {
       // Smaller values win, or neither do.
@@ -180,7 +180,7 @@ std::vector<OneSidedPrice> one_sided_prices(const ScaledProblem& problem, const 
     if (std::isinf(relaxing) && name.bound != Bound::exactly) continue;
     relaxing = std::max(relaxing, 0.0);
     const bool counts = tightening - relaxing > programs.counts(name);
-    if (!counts || !(relaxing < (1.0 - kApart) * tightening)) continue;
+    if (!counts || !(relaxing < (1.0 - kPricesApart) * tightening)) continue;
     if (is_kink(programs, name, tightening - relaxing)) result.push_back({name, relaxing, tightening});
   }
   return result;

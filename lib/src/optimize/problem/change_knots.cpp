@@ -9,7 +9,7 @@ namespace {
 // radius at the change, 1e-3 costs 5e-5 to 9e-5 of the time, 1e-4 5e-6 to 8e-6, 1e-5 5e-7 to 8e-7.
 constexpr double kWidth = 1e-6;
 // Other knots are not as close: a track is not to bend there twice. Measured: from 1e-5 to 1e-3 the same tracks.
-constexpr double kApart = 1e-4;
+constexpr double kKnotsApart = 1e-4;
 // A change this close to an end of the core is none in it.
 constexpr double kAtEnd = 1e-9;  // rounding
 
@@ -51,7 +51,7 @@ Vector with_change_knots(const Vector& knots, const std::vector<ChangeKnots>& ch
   for (const double knot : knots) {
     const bool inner = knot > 0.0 && knot < 1.0;
     const bool close = std::any_of(changes.begin(), changes.end(), [&](const ChangeKnots& change) {
-      return knot > change.from - kApart && knot < change.to + kApart;
+      return knot > change.from - kKnotsApart && knot < change.to + kKnotsApart;
     });
     if (!inner || !close) result.push_back(knot);
   }

@@ -84,7 +84,7 @@ struct Plan {
   std::vector<double> turns;
 };
 
-struct End {
+struct EndOfRide {
   double y = 0.0;
   double zeta = 0.0;
   double t = 0.0;
@@ -98,13 +98,13 @@ class Rider {
 
   /// @param path  where the states on the way are added
   /// @return none where it does not come to the run of the finish
-  [[nodiscard]] std::optional<End> ride(const Plan& plan, std::vector<State>* path = nullptr) const {
+  [[nodiscard]] std::optional<EndOfRide> ride(const Plan& plan, std::vector<State>* path = nullptr) const {
     constexpr double kLongest = 8.0;  // chords; taste
     State state;
     state.zeta = plan.entry;
     for (const Ride& ride : problem_.rides) state.v.push_back(ride.entry_speed2);
     State before;
-    std::optional<End> end;
+    std::optional<EndOfRide> end;
     const auto goes_on = [&](Piece piece, double most) {
       if (path != nullptr) path->push_back(state);
       before = state;
@@ -112,8 +112,8 @@ class Rider {
       if (state.x >= problem_.run) {
         const double share = (problem_.run - before.x) / (state.x - before.x);
         const auto at = [&](double a, double b) { return a + share * (b - a); };
-        end = End{at(before.y, state.y), at(before.zeta, state.zeta), at(before.t, state.t),
-                  at(before.v.front(), state.v.front())};
+        end = EndOfRide{at(before.y, state.y), at(before.zeta, state.zeta), at(before.t, state.t),
+                        at(before.v.front(), state.v.front())};
         if (path != nullptr) {
           path->push_back(state);
           path->back().s = at(before.s, state.s);
@@ -229,7 +229,7 @@ class Planner {
 
   /// Whether a fall as steep as it may begin, and the ride at the cap behind it, end above the finish.
   [[nodiscard]] bool asks_for_hooks() const {
-    const std::optional<End> end = rider_.ride({entries().back(), {}, {}});
+    const std::optional<EndOfRide> end = rider_.ride({entries().back(), {}, {}});
     return !end || end->y < problem_.drop;
   }
 
@@ -308,7 +308,7 @@ class Planner {
     double low = 0.0;
     for (int step = 1; step <= kSteps; ++step) {
       const double by = kMost * step / kSteps;
-      const std::optional<End> end = rider_.ride(turned(by));
+      const std::optional<EndOfRide> end = rider_.ride(turned(by));
       if (!end) {
         is_known = false;
         continue;
@@ -326,7 +326,7 @@ class Planner {
     constexpr double kNear = 2e-3;  // chords; taste
     for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (low + high);
-      const std::optional<End> end = rider_.ride(turned(middle));
+      const std::optional<EndOfRide> end = rider_.ride(turned(middle));
       if (!end) return;
       const double off = end->y - problem_.drop;
       if (std::fabs(off) < kNear && (i + 1 == halvings || std::fabs(off) < 1e-5)) {
@@ -342,7 +342,7 @@ class Planner {
     }
   }
 
-  [[nodiscard]] double worth_of(const End& end) const {
+  [[nodiscard]] double worth_of(const EndOfRide& end) const {
     constexpr double kPrice = 1.0;  // of each radian, and of the squared speed; taste
     const double slope = std::max({0.0, room_.exit_lowest - end.zeta, end.zeta - room_.exit_highest});
     const double speed = std::max(0.0, end.v - room_.exit_cap);
@@ -382,8 +382,8 @@ class Planner {
       for (double& turn : scaled.turns) turn *= by;
       return scaled;
     };
-    const std::optional<End> less = rider_.ride(turned(1.0 - kNear));
-    const std::optional<End> more = rider_.ride(turned(1.0 + kNear));
+    const std::optional<EndOfRide> less = rider_.ride(turned(1.0 - kNear));
+    const std::optional<EndOfRide> more = rider_.ride(turned(1.0 + kNear));
     if (!less || !more) return;
     const double off = less->y - problem_.drop;
     if (off * (more->y - problem_.drop) > 0.0) return;
