@@ -8,7 +8,7 @@
 namespace glissade::pipeline {
 namespace {
 
-RideFacts facts_of(const Motion& motion, std::string place) {
+RideFacts facts_along(const Motion& motion, std::string place) {
   RideFacts facts;
   facts.place = std::move(place);
   facts.end = ride_end(motion);
@@ -62,7 +62,7 @@ std::vector<RideFacts> rides_from_start(const Track& track) {
     std::string place = track.gates ? "start" : "";
     if (rides.size() > 1)
       place += (place.empty() ? "" : ", ") + std::string(to_text(ride.level)) + " friction";
-    all.push_back(facts_of(*ride.motion, std::move(place)));
+    all.push_back(facts_along(*ride.motion, std::move(place)));
   }
   return all;
 }
