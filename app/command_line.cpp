@@ -35,6 +35,13 @@ constexpr const char* kCommandLineFooter =
     "70 a defect of Glissade; 130 interrupted.\n"
     "'glissade help COMMAND' tells more about a command.";
 
+/// A misspelt command asks for no help of the program's own.
+void refuse_unknown_command(const CLI::App& program) {
+  const std::vector<std::string> rest = program.remaining();
+  if (program.get_subcommands().empty() && !rest.empty() && !rest.front().starts_with('-'))
+    throw InputError(unknown_command(program, rest.front()));
+}
+
 }  // namespace
 
 ExitCode run(int argc, const char* const* argv) {
@@ -75,10 +82,12 @@ ExitCode run(int argc, const char* const* argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
+    refuse_unknown_command(program);
     const auto given = program.get_subcommands();
     print(help_text(given.empty() ? program : *given.front()));
     return ExitCode::done;
   } catch (const CLI::CallForVersion& version) {
+    refuse_unknown_command(program);
     print(std::string(version.what()) + "\n");
     return ExitCode::done;
   } catch (const CLI::ParseError& error) {

@@ -55,6 +55,16 @@ TEST_CASE("help COMMAND prints what COMMAND --help prints") {
   CHECK_THAT(slip.errors, Contains("there is no command bild") && Contains("Try: glissade help build"));
 }
 
+TEST_CASE("a misspelt command is told, whatever is asked of it") {
+  for (const char* const option : {"--help", "-h", "--version"}) {
+    const Outcome slip = glissade_run({"bild", option});
+    INFO(option);
+    CHECK(slip.exit_code == 2);
+    CHECK(slip.output.empty());
+    CHECK_THAT(slip.errors, Contains("there is no command bild") && Contains("Try: glissade build"));
+  }
+}
+
 TEST_CASE("each command has a page for man, without a warning, that says what its help says") {
   const TempDir place;
   REQUIRE(glissade_run({"help", "--man-pages", (place / "man").string()}).exit_code == 0);
