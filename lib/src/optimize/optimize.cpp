@@ -3,6 +3,7 @@
 #include "glissade/optimize/optimize.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/motion/laws/most_wear.hpp"
 #include "glissade/task/limit_catalogue.hpp"
 
 #include "optimize/answer/course.hpp"
@@ -264,13 +265,57 @@ void leave_out_own(std::vector<ActiveLimit>& active) {
                 [](const ActiveLimit& one) { return entry_of(one.limit.id).form == LimitForm::of_search; });
 }
 
-/// optimize() of a problem that is sound, by the objective.
+/// optimize() of a problem that is sound and has all its frictions, by the objective.
 Optimum searched_by_objective(const Problem& problem, const OptimizeOptions& options,
                               const std::stop_token& stop, const Progress& progress) {
   if (is_least_bound(problem.objective.kind)) return least_bound(problem, options, stop, progress);
   if (problem.objective.kind == ObjectiveKind::least_peak_wear)
     return least_peak(problem, options, stop, progress);
   return searched_once(problem, options, Reasons::with_what_would_do, stop, progress).optimum;
+}
+
+/// A friction inside the range at which the track found wears more than at those that were searched with, and as much as matters.
+std::optional<Friction> wearing_more(const Problem& problem, const Optimum& optimum) {
+  constexpr double kApart =
+      1e-3;                       // taste: a peak is flat, and next to a friction that is known hardly higher
+  constexpr double kNear = 0.99;  // taste: of a bound that may bind
+  const bool is_least = problem.objective.kind == ObjectiveKind::least_peak_wear;
+  const std::optional<double>& highest = problem.limits.highest_floor_wear;
+  if (!optimum.centerline || optimum.report.ended_early || (!is_least && !highest)) return {};
+  const Friction low = problem.low_friction.value_or(problem.body.friction);
+  const Friction high = problem.high_friction.value_or(problem.body.friction);
+  const auto most = friction_of_most_wear(optimum.centerline, problem.body, problem.gravity, low, high);
+  if (!most) return {};
+  const std::vector<LimitCheck>& checks = optimum.report.checks;
+  const auto wear = std::find_if(checks.begin(), checks.end(), [](const LimitCheck& check) {
+    return check.limit.id == LimitId::highest_floor_wear;
+  });
+  if (!is_least && (wear == checks.end() || wear->reached < kNear * *highest)) return {};
+  std::vector<Friction> known = problem.further_frictions;
+  known.push_back(problem.body.friction);
+  const bool is_known = std::any_of(known.begin(), known.end(), [&](const Friction& friction) {
+    return std::fabs(friction.coefficient() - most->coefficient()) <= kApart * most->coefficient();
+  });
+  return is_known ? std::nullopt : most;
+}
+
+/// The search, once more with each friction at which its track wears more than it has seen. What it found before counts where that
+/// leads to nothing better.
+Optimum searched_over_range(Problem problem, const OptimizeOptions& options, const std::stop_token& stop,
+                            const Progress& progress) {
+  constexpr int kMostFrictions = 4;  // budget
+  Optimum best = searched_by_objective(problem, options, stop, progress);
+  std::optional<Friction> more = wearing_more(problem, best);
+  for (int round = 0; more && round < kMostFrictions; ++round) {
+    problem.further_frictions.push_back(*more);
+    Optimum next = searched_by_objective(problem, options, stop, progress);
+    const bool is_worse = !next.centerline || (next.report.status != OptimizeStatus::optimal &&
+                                               best.report.status == OptimizeStatus::optimal);
+    if (is_worse) break;
+    best = std::move(next);
+    more = wearing_more(problem, best);
+  }
+  return best;
 }
 
 }  // namespace
@@ -300,7 +345,7 @@ Optimum optimize(const Problem& given, const OptimizeOptions& options, const std
   require_valid(options);
   const Problem problem = with_mean_slope_allowed(with_true_changes(given), options.limit_tolerance);
   require_passable_in_order(problem);
-  Optimum optimum = with_stop_told(searched_by_objective(problem, options, stop, progress), stop);
+  Optimum optimum = with_stop_told(searched_over_range(problem, options, stop, progress), stop);
   leave_out_own(optimum.report.active);
   return optimum;
 }

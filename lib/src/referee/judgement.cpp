@@ -2,6 +2,7 @@
 
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/motion/laws/most_wear.hpp"
 #include "glissade/motion/motion.hpp"
 
 #include "referee/track_samples.hpp"
@@ -15,24 +16,35 @@
 namespace glissade::referee {
 namespace {
 
-/// A friction that limits hold at, and what the check of arriving there is called; none: the nominal one.
+/// A friction that limits hold at, and what the check of arriving there is called, if it has one.
 struct NamedFriction {
   Friction friction;
   std::optional<FrictionLevel> level;  ///< none where there is no range
   std::optional<LimitId> arrival;
+  bool is_nominal = false;
 };
 
-std::vector<NamedFriction> frictions_of(const Problem& problem) {
+/// The friction inside a range at which a stream wears its track most, where wear is limited: mu N is greatest at neither end.
+std::optional<Friction> most_wearing(const Problem& problem, const CenterlinePtr& track) {
+  const bool is_limited = problem.limits.highest_floor_wear.has_value();
+  if (!is_limited || (!problem.low_friction && !problem.high_friction)) return {};
+  return friction_of_most_wear(track, problem.body, problem.gravity,
+                               problem.low_friction.value_or(problem.body.friction),
+                               problem.high_friction.value_or(problem.body.friction));
+}
+
+std::vector<NamedFriction> frictions_of(const Problem& problem, const CenterlinePtr& track) {
   using enum FrictionLevel;
   const bool ranges = problem.low_friction || problem.high_friction;
   std::vector<NamedFriction> frictions{
-      {problem.body.friction, ranges ? std::optional(nominal) : std::nullopt, {}}};
+      {problem.body.friction, ranges ? std::optional(nominal) : std::nullopt, {}, true}};
   if (problem.low_friction) {
     frictions.push_back({*problem.low_friction, low, LimitId::arrival_at_low_friction});
   }
   if (problem.high_friction) {
     frictions.push_back({*problem.high_friction, high, LimitId::arrival_at_high_friction});
   }
+  if (const auto friction = most_wearing(problem, track)) frictions.push_back({*friction, between, {}});
   return frictions;
 }
 
@@ -175,7 +187,7 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
 
   Judgement judgement;
   judgement.arrived = true;
-  for (const auto& [friction, level, arrival] : frictions_of(problem)) {
+  for (const auto& [friction, level, arrival, is_nominal] : frictions_of(problem, track)) {
     watches.ride_at(level, friction);
     Body body = problem.body;
     body.friction = friction;
@@ -194,7 +206,7 @@ Judgement judge_track(const Problem& asked, const CenterlinePtr& track, int samp
       if (motion.law_end()) judgement.stall = motion.law_end()->arc_length;
       if (broken_rides == BrokenRides::left_out) continue;
     }
-    if (!arrival) {
+    if (is_nominal) {
       judgement.travel_time = motion.travel_time();
       judgement.exit_speed = motion.exit_speed();
     }

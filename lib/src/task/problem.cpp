@@ -81,6 +81,12 @@ void check_body(const Problem& problem, Checker& check) {
     check.require(*problem.low_friction <= problem.body.friction, "low_friction exceeds the body's friction",
                   "a friction range needs low <= nominal <= high");
   }
+  const Friction least = problem.low_friction.value_or(problem.body.friction);
+  const Friction most = problem.high_friction.value_or(problem.body.friction);
+  for (const Friction& friction : problem.further_frictions) {
+    check.require(least <= friction && friction <= most, "further_frictions leave the range",
+                  "what lies outside it is no friction of the body");
+  }
   if (problem.high_friction) {
     check.require(*problem.high_friction >= problem.body.friction,
                   "high_friction is below the body's friction",

@@ -8,6 +8,7 @@
 #include "glissade/task/objective.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace glissade {
 
@@ -25,6 +26,9 @@ struct Problem {
   Body body;                                   ///< body.friction is the nominal friction
   std::optional<Friction> low_friction;        ///< <= body.friction; limits hold there too
   std::optional<Friction> high_friction;       ///< >= body.friction; limits hold there too
+  /// Within the range; limits hold there, too, as far as a search looks. A wear of the floor need be greatest at none of those
+  /// above: optimize() adds what it meets.
+  std::vector<Friction> further_frictions;
   double gravity = kDefaultGravity;            ///< [m/s^2]; > 0
   Limits limits;
   Objective objective;

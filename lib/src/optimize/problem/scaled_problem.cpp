@@ -600,6 +600,7 @@ ScaledProblem scaled(const Problem& problem, const Passages& passages) {
   std::vector<double> frictions{problem.body.friction.coefficient()};
   if (problem.low_friction) frictions.push_back(problem.low_friction->coefficient());
   if (problem.high_friction) frictions.push_back(problem.high_friction->coefficient());
+  for (const Friction& friction : problem.further_frictions) frictions.push_back(friction.coefficient());
   std::sort(frictions.begin(), frictions.end());
   frictions.erase(std::unique(frictions.begin(), frictions.end()), frictions.end());
   for (const double mu : frictions) out.rides.push_back(scaled_ride(problem.body, mu, out));
