@@ -562,6 +562,27 @@ describe("gates", () => {
   });
 });
 
+describe("places of gates", () => {
+  const rows = (page) => page.locator("table.gates").evaluate((table) => [...table.rows].map((row) => [...row.cells].map((cell) => cell.textContent)));
+
+  test("are x, y and z on the site where the hill is turned in plan, x and z where it is not", async () => {
+    for (const azimuth of [0, 30]) {
+      const made = build(path.join(designs, "hills/kulm_hs235.yaml"), "--set", `track.azimuth=${azimuth} deg`);
+      const { page, complaints } = await open(plain, made.file, SMALL);
+      const list = await page.evaluate(() => window.glissadeReport.document.gates.list);
+      const [heads, ...cells] = await rows(page);
+      const axes = azimuth === 0 ? ["x", "z"] : ["x", "y", "z"];
+      assert.deepEqual(heads.slice(0, 2 + axes.length), ["Gate", "To the edge [m]", ...axes.map((axis) => `${axis} [m]`)]);
+      assert.equal(cells.length, list.length);
+      cells.forEach((row, i) => axes.forEach((axis, k) => {
+        assert.ok(Math.abs(Number(row[2 + k].replace("\u2212", "-")) - list[i][`${axis}_m`]) < 1e-3, `${axis} of gate ${i + 1}: ${row[2 + k]}`);
+      }));
+      assert.deepEqual(complaints, []);
+      await page.close();
+    }
+  });
+});
+
 describe("a stream", () => {
   let page;
   let complaints;

@@ -107,6 +107,9 @@ struct GateTable {
   std::vector<Vec3> positions;            ///< of the gates, in space [m]
   double largest_height_step = 0.0;       ///< from one gate to the next [m]; 0 of a single gate
   std::vector<GateCondition> conditions;  ///< the nominal one first
+
+  /// @return whether a gate's y is other than 0 but for rounding, as on a track that is turned in plan
+  [[nodiscard]] bool has_y() const;
 };
 
 /// @return the gate, as a number between gates where it falls between them, whose speed at the measuring place is
