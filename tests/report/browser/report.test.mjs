@@ -567,8 +567,15 @@ describe("places of gates", () => {
 
   test("are x, y and z on the site where the hill is turned in plan, x and z where it is not", async () => {
     for (const azimuth of [0, 30]) {
-      const made = build(path.join(designs, "hills/kulm_hs235.yaml"), "--set", `track.azimuth=${azimuth} deg`);
-      const { page, complaints } = await open(plain, made.file, SMALL);
+      const file = path.join(work, `turned${azimuth}.yaml`);
+      writeFileSync(file, `glissade: 1
+track: {edge: {x: 0 m, z: 0 m}, azimuth: ${azimuth} deg}
+body: {friction_coefficient: 0.03, drag: 0.0013 1/m}
+centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m, e_counts_to: table}
+gates: {count: 5, measuring_place: 10 m}
+export: [csv]
+`);
+      const { page, complaints } = await open(plain, build(file).file, SMALL);
       const list = await page.evaluate(() => window.glissadeReport.document.gates.list);
       const [heads, ...cells] = await rows(page);
       const axes = azimuth === 0 ? ["x", "z"] : ["x", "y", "z"];
