@@ -475,9 +475,9 @@ TEST_CASE("where no letters within the rules give the take-off speed only they a
   CHECK_THAT(letters.problem, contains_text("less than the transition alone gives"));
   CHECK(found.shapes.front().track);
   CHECK(shape_named(found, "its letters, circle").track);
-  CHECK_THAT(
-      found.shapes.back().problem,
-      contains_text("the table alone, 400 m, gives more than the take-off speed: 25.15 m/s from rest, 23.33"));
+  CHECK_THAT(found.shapes.back().problem,
+             contains_text(
+                 "the table alone, 400 m, gives more than the take-off speed: 25.15 m/s from rest, 23.33"));
   const auto problem = found.letters_problem();
   REQUIRE(problem);
   CHECK_THAT(problem->what,
