@@ -131,20 +131,24 @@ Table slopes_table(const GateTable& table) {
 }
 
 Table gates_table(const GateTable& table) {
-  std::vector<std::string> headings = {"gate", "to edge [m]", "x [m]", "z [m]"};
+  std::vector<std::string> headings = {"gate", "to edge [m]", "x [m]"};
+  if (table.has_y()) headings.emplace_back("y [m]");
+  headings.emplace_back("z [m]");
   for (const GateCondition& condition : table.conditions) {
     const std::string name = table.conditions.size() > 1 ? condition.name + " " : "";
-    for (const char* const column : {"v [m/s]", "[km/h]", "edge [m/s]", "t [s]", "load [g]"}) {
-      headings.push_back((headings.size() % 5 == 4 ? name : "") + column);
-    }
+    headings.push_back(name + "v [m/s]");
+    for (const char* const column : {"[km/h]", "edge [m/s]", "t [s]", "load [g]"})
+      headings.emplace_back(column);
   }
   Table text(std::move(headings));
   const int finest = decimals_of_places(table.gates);
   for (std::size_t i = 0; i < table.gates.size(); ++i) {
     std::vector<std::string> row = {std::to_string(table.gates[i].number)};
-    for (const double place : {table.gates[i].to_edge, table.positions[i].x, table.positions[i].z}) {
-      row.push_back(fixed_text(place, finest));
-    }
+    const Vec3 at = table.positions[i];
+    row.push_back(fixed_text(table.gates[i].to_edge, finest));
+    row.push_back(fixed_text(at.x, finest));
+    if (table.has_y()) row.push_back(fixed_text(at.y, finest));
+    row.push_back(fixed_text(at.z, finest));
     for (const GateCondition& condition : table.conditions) {
       const GateRide& ride = condition.rides[i];
       const auto told = [&](double value, int decimals) {

@@ -234,7 +234,7 @@ void require_found(const Design& design, const Redesign& found, bool letters) {
   std::optional<Issue> problem = found.search_problem();
   if (!problem) return;
   problem->where = design.where("centerline");
-  if (found.search && found.search->status == OptimizeStatus::infeasible) throw InfeasibleError(*problem);
+  if (found.is_infeasible()) throw InfeasibleError(*problem);
   throw ConvergenceError(*problem);
 }
 

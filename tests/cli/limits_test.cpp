@@ -180,6 +180,38 @@ TEST_CASE("a limit that is missed by a hair is told with the digits that show it
                                  Contains("speed.highest 5.2407 m/s is broken by"));
 }
 
+TEST_CASE("a redesign whose table alone is too fast has exit code 3, as a search that ends early has 4") {
+  const TempDir place;
+  const std::string long_table =
+      "rules={own: [{id: own.t, sentence: Long., quantity: table_length, lowest: 400 m, source: a test}]}";
+  const auto outcome_for = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(),
+                     {"redesign", shipped("hills/garmisch_hs142"), "--time-budget", "1ms"});
+    return glissade_run(arguments, {place.path(), {}, {}});
+  };
+  const Outcome fast = outcome_for({"--set", long_table, "-o", "made.yaml", "--json"});
+  CHECK(fast.exit_code == 3);
+  CHECK_THAT(
+      fast.errors,
+      Contains(
+          "there is no free shape: the table alone, 400 m, gives more than the take-off speed: 28.06 m/s "
+          "from rest, 27.07 m/s are asked for; it would take a shorter table, or a higher speed") &&
+          Contains("Whatever lies above the table, a body enters it with no less than that."));
+  CHECK_FALSE(std::filesystem::exists(place / "made.yaml"));
+  const json search = json::parse(fast.output)["search"];
+  CHECK(search["status"] == "infeasible");
+  CHECK_THAT(search["message"].get<std::string>(), Contains("the table alone, 400 m"));
+  const Outcome high = outcome_for({"--set", long_table, "--for", "exit-speed"});
+  CHECK(high.exit_code == 3);
+  CHECK_THAT(high.errors, Contains("the table alone, 400 m, drops by 76.32 m, which leaves nothing of the "
+                                   "in-run's 47.1 m; it would take a shorter one"));
+  const Outcome area = outcome_for({"--speed", "5m/s"});
+  CHECK(area.exit_code == 3);
+  CHECK_THAT(area.errors, Contains("start area and table alone, 24 m and 1.25 m, give more than the take-off "
+                                   "speed: 8.796 m/s from rest, 5 m/s are asked for"));
+  CHECK(outcome_for({}).exit_code == 4);
+}
+
 TEST_CASE("a track of another kind is held against the limits, and a broken one has exit code 3") {
   const DesignFile file(kInrun);
   const Outcome outcome = solve(file, {"--set", "centerline.kind=straight", "--json"});

@@ -2,6 +2,9 @@
 #include "support/catch.hpp"
 #include "support/temp_dir.hpp"
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -164,6 +167,42 @@ TEST_CASE("the table of gates tells neighbours apart, whatever the size of the t
       CHECK(to_edge[i] - to_edge[i - 1] == Approx(apart).epsilon(0.1));
     }
     CHECK_THAT(outcome.output, Contains("to edge [m]"));
+  }
+}
+
+TEST_CASE("the table of gates tells y on a track that is turned in plan, as its JSON and CSV do") {
+  const TempDir place;
+  for (const double azimuth : {0.0, 37.0, 90.0, 180.0, -120.0}) {
+    CAPTURE(azimuth);
+    const std::string turn = "track.azimuth=" + nlohmann::json(azimuth).dump() + " deg";
+    const auto gates = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), {"gates", shipped("hills/garmisch_hs142"), "--set", turn});
+      const Outcome outcome = glissade_run(more, {place.path(), {}, {}});
+      REQUIRE(outcome.exit_code == 0);
+      return outcome.output;
+    };
+    const std::string text = gates({});
+    const auto list = nlohmann::json::parse(gates({"--json"}))["gates"];
+    const bool turned = azimuth != 0.0 && azimuth != 180.0;
+    CHECK((text.find(" y [m]") != std::string::npos) == turned);
+    std::istringstream lines(text);
+    std::size_t rows = 0;
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream row(line);
+      int gate = 0;
+      double to_edge = 0.0;
+      std::array<double, 3> at{};
+      if (!(row >> gate >> to_edge >> at[0])) continue;
+      if (turned) row >> at[1];
+      row >> at[2];
+      const auto& told = list.at(rows++);
+      CHECK(told["gate"] == gate);
+      constexpr double kShown = 0.0051;  // two decimals
+      CHECK(std::fabs(told["x_m"].get<double>() - at[0]) < kShown);
+      CHECK(std::fabs(told["y_m"].get<double>() - at[1]) < kShown);
+      CHECK(std::fabs(told["z_m"].get<double>() - at[2]) < kShown);
+    }
+    CHECK(rows == 49);
   }
 }
 

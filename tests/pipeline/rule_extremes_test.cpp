@@ -298,7 +298,12 @@ TEST_CASE("rules over random gates, conditions and ranges say what each single r
     ValuesByKey all;
     Values& highest = all["highest_take_off_speed"];
     Values& lowest = all["lowest_take_off_speed"];
-    for (const Body& body : {body_of(design), slow, fast}) {
+    Body slippery = body_of(design);
+    slippery.friction = Friction::from_coefficient(low);
+    Body rougher = body_of(design);
+    rougher.friction = Friction::from_coefficient(high);
+    // Of the range, too: that conditions are given takes no ride from any gate.
+    for (const Body& body : {body_of(design), slow, fast, slippery, rougher}) {
       std::vector<double> speeds;
       for (const Gate& gate : track.gates->gates) {
         const Motion motion = ride_from(track.centerline, gate.from_start, body, design.gravity);
@@ -315,7 +320,6 @@ TEST_CASE("rules over random gates, conditions and ranges say what each single r
       body.friction = Friction::from_coefficient(friction);
       const Motion motion(track.centerline, body, design.gravity);
       add_ride(motion, all);
-      if (track.gates->gates.back().from_start == 0.0) highest.seen.push_back(motion.exit_speed());
     }
     add_up(told, compare(random, design, track, all));
   }
@@ -333,7 +337,7 @@ TEST_CASE("gates neither hide the range of friction nor go unseen by speeds and 
   };
   const Judgement load = verdict("highest_normal_load", "highest: 16.775 m/s^2");
   CHECK(load.verdict == RuleVerdict::fail);
-  CHECK(load.place == "start, low friction");
+  CHECK(load.place == "gate 9, low friction");
   CHECK(*load.value == Approx(16.784).epsilon(1e-4));
   const Judgement slow = verdict("exit_speed", "lowest: 24 m/s");
   CHECK(slow.verdict == RuleVerdict::fail);
@@ -345,10 +349,37 @@ TEST_CASE("gates neither hide the range of friction nor go unseen by speeds and 
   const Judgement high = verdict("highest_take_off_speed", "lowest: 26.5 m/s");
   CHECK(high.verdict == RuleVerdict::fail);
   CHECK(high.place == "gate 9, slow");
-  CHECK(verdict("highest_take_off_speed", "highest: 20 m/s").place == "start, low friction");
+  CHECK(verdict("highest_take_off_speed", "highest: 20 m/s").place == "gate 9, low friction");
   CHECK(judged(hill("friction_coefficient: 0.03", "count: 9", own("exit_speed", "highest: 20 m/s")),
                "o.exit_speed")
             .place == "gate 9");
+}
+
+TEST_CASE("conditions that are given take no gate's ride of the range of friction from what is judged") {
+  const std::string body = "friction_coefficient: {low: 0.02, nominal: 0.03, high: 0.09}, drag: 0.0013 1/m";
+  const auto verdict = [&](const std::string& conditions, const char* quantity, const char* bounds) {
+    return judged(hill(body, "count: 9" + conditions, own(quantity, bounds)), std::string("o.") + quantity);
+  };
+  const std::string mild = ", slow: {friction_coefficient: 0.035}, fast: {friction_coefficient: 0.028}";
+  for (const char* const quantity : {"lowest_take_off_speed", "exit_speed"}) {
+    const Judgement ends = verdict("", quantity, "lowest: 24 m/s");
+    const Judgement given = verdict(mild, quantity, "lowest: 24 m/s");
+    CHECK(ends.place == "gate 1, slow");
+    CHECK(given.place == "gate 1, high friction");
+    CHECK(given.value == ends.value);
+    CHECK(given.verdict == ends.verdict);
+  }
+  CHECK(verdict(mild, "travel_time", "highest: 5 s").value ==
+        verdict("", "travel_time", "highest: 5 s").value);
+  // One of them alone leaves the other end to its condition.
+  CHECK(verdict(", slow: {friction_coefficient: 0.035}", "highest_take_off_speed", "highest: 20 m/s").place ==
+        "gate 9, fast");
+  // A rule is judged over what no table shows.
+  const Design design = parse_design(hill(body, "count: 9" + mild, ""), "d.yaml");
+  const GateTable table = *solve(design).gates;
+  CHECK(table.conditions.size() == 3);
+  REQUIRE(table.range.size() == 2);
+  CHECK(table.range.front().rides.size() == 9);
 }
 
 TEST_CASE("steps of gates are held against both sides") {

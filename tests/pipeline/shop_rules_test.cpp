@@ -187,6 +187,29 @@ TEST_CASE(
   CHECK(again.fabrication == design.fabrication);
 }
 
+TEST_CASE(
+    "shop rules: a gap between bolts that is too wide is told, however near each has another neighbour") {
+  // Below a floor of 200 mm one gap of 259 mm; up the walls of 120 mm the next bolts are half as far.
+  const Design design = parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 2 m, z: 6.2 m}, finish: {x: 7.4 m, z: 1.1 m}}\n"
+      "body: {friction_angle: 17 deg}\n"
+      "cross_section: {kind: u-channel, width: 200 mm, wall_height: 120 mm, thickness: 4 mm}\n"
+      "fabrication: {process: plate, flanges: {width: 50 mm, thickness: 6 mm, bolt: M10, pitch: 300 mm},\n"
+      "  rules: {own: [{id: own.pitch, sentence: S., quantity: bolt_pitch, lowest: 140 mm, source: us}]}}\n",
+      "d.yaml");
+  const Assembly assembly = assemble(design, solve(design), {}, {.report = false});
+  const std::vector<ShopCheck>& checks = assembly.fabrication->workshop.checks;
+  const ShopCheck widest = testing::check_of(checks, "plate.bolt-pitch");
+  CHECK(widest.verdict == ShopVerdict::warn);
+  CHECK(widest.value == "259 mm");
+  CHECK(widest.bound == "at most 150 mm");
+  CHECK_THAT(widest.where, Contains("end_frame"));
+  const ShopCheck least = testing::check_of(checks, "own.pitch");
+  CHECK(least.verdict == ShopVerdict::fail);
+  CHECK(least.value == "131.5 mm");
+}
+
 TEST_CASE("shop rules: rules of tracks among those of a workshop are refused, and the other way round") {
   CHECK_THAT(problems_of(design_with(
                  "{own: [{id: a, sentence: S., quantity: highest_speed, highest: 9 m/s, source: us}]}")),

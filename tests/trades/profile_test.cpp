@@ -1,4 +1,5 @@
 #include "glissade/core/error.hpp"
+#include "glissade/design/write.hpp"
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/sheet_file.hpp"
 #include "glissade/pipeline/profile_drawing.hpp"
@@ -134,6 +135,31 @@ TEST_CASE("the sheets hold the section, the certificate in three languages, gate
   CHECK(rows >= 106 + 49 + 10);
   const std::string pdf = pdf_text(sheets, "Garmisch");
   CHECK(pdf.starts_with("%PDF"));
+}
+
+TEST_CASE("sheets of a hill that is turned in plan tell y of gates, stations and parallel lines") {
+  const auto headings_at = [](double azimuth) {
+    Design design = garmisch();
+    std::string text = design_text(design);
+    const std::string key = "track:\n";
+    text.insert(text.find(key) + key.size(), "  azimuth: " + std::to_string(azimuth) + " deg\n");
+    design = parse_design(text, "turned.yaml");
+    ProfileOptions options;
+    options.parallels = {{"beam", -0.35}};
+    std::string words;
+    for (const Sheet& sheet : profile_sheets(design, solve(design), options)) {
+      for (const SheetTable& table : sheet.tables) {
+        CHECK(table.header.size() == table.widths_mm.size());
+        for (const auto& row : table.rows) CHECK(row.size() == table.header.size());
+        for (const std::string& head : table.header) words += head + "|";
+      }
+    }
+    return words;
+  };
+  const std::string turned = headings_at(30.0);
+  CHECK_THAT(turned, Contains("gate|to edge [m]|x [m]|y [m]|z [m]|") && Contains("beam x, y, z [m]|"));
+  const std::string plain = headings_at(0.0);
+  CHECK_THAT(plain, Contains("gate|to edge [m]|x [m]|z [m]|") && Contains("beam x, z [m]|"));
 }
 
 TEST_CASE("the cross-section is drawn as it is swept: its area, its grooves and their measures") {

@@ -475,7 +475,9 @@ TEST_CASE("where no letters within the rules give the take-off speed only they a
   CHECK_THAT(letters.problem, contains_text("less than the transition alone gives"));
   CHECK(found.shapes.front().track);
   CHECK(shape_named(found, "its letters, circle").track);
-  CHECK(found.shapes.back().problem == "the table alone, 400 m, gives more than the take-off speed");
+  CHECK_THAT(found.shapes.back().problem,
+             contains_text(
+                 "the table alone, 400 m, gives more than the take-off speed: 25.15 m/s from rest, 23.33"));
   const auto problem = found.letters_problem();
   REQUIRE(problem);
   CHECK_THAT(problem->what,
@@ -483,6 +485,68 @@ TEST_CASE("where no letters within the rules give the take-off speed only they a
   CHECK_THROWS_AS(redesigned(design, found, false), InfeasibleError);
   const auto told = nlohmann::json::parse(redesign_json(design, found));
   CHECK(told["letters"].empty());
+}
+
+TEST_CASE("a table that alone is too fast, or too high, is a conflict that needs no search") {
+  const Design design = slow_design(
+      "rules:\n  own:\n    - {id: own.t, sentence: Long., quantity: table_length, "
+      "lowest: 400 m, source: a test}\n");
+  for (const RedesignGoal goal : redesign_goals()) {
+    INFO(word(goal));
+    const Redesign found = redesign(design, {goal, {}, {}}, short_search());
+    const bool from_there = goal != RedesignGoal::least_drop && goal != RedesignGoal::least_length;
+    CHECK(found.shapes.back().track == nullptr);
+    CHECK(found.is_infeasible());
+    REQUIRE(found.search);
+    CHECK(found.search->status == OptimizeStatus::infeasible);
+    CHECK(found.search->evaluations == 0);
+    CHECK_THAT(
+        found.search->conflict.text,
+        contains_text(from_there ? "drops by 75.74 m, which leaves nothing of the in-run's 38.06 m; it would"
+                                 : "23.33 m/s are asked for; it would take a shorter table, or a higher"));
+    const auto problem = found.search_problem();
+    REQUIRE(problem);
+    CHECK_THAT(problem->what, contains_text("there is no free shape: the table alone, 400 m, "));
+    CHECK_FALSE(problem->why.empty());
+    CHECK_THROWS_AS(redesigned(design, found, true), InfeasibleError);
+  }
+}
+
+TEST_CASE(
+    "start area and table that alone are too fast are a conflict, and no other shape is taken for the free "
+    "one") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  const Design design = garmisch_design();
+  for (int i = 0; i < (testing::thorough() ? 20 : 4); ++i) {
+    Design changed = design;
+    changed.body.friction = Friction::from_coefficient(random.between(0.0, 0.1));
+    changed.body.head_wind = random.between(0.0, 5.0);
+    RedesignOptions options;
+    options.speed = random.between(1.0, 14.0);
+    INFO("hill " << i << ", " << *options.speed << " m/s, friction " << changed.body.friction.coefficient());
+    const Redesign found = redesign(changed, options, short_search());
+    // By hand: over 24 m and a table of 0.25 s on a slope of 11 deg, drag and all.
+    const double table = 0.25 * *options.speed;
+    const double ramp =
+        speed_on(std::make_shared<const ClothoidSpline>(
+                     Angle::from_degrees(11.0), std::vector<ClothoidSegment>{{24.0 + table, 0.0, 0.0}}),
+                 found.take_off);
+    CAPTURE(ramp);
+    CHECK(found.is_infeasible() == (ramp > *options.speed));
+    if (!found.is_infeasible()) continue;
+    CHECK_THAT(found.shapes.back().problem, contains_text("start area and table alone, 24 m and "));
+    // No bend over that straight is slower.
+    for (int k = 0; k < 5; ++k) {
+      const double turn = Angle::from_degrees(random.between(0.0, 24.0)).radians();
+      const double length = random.between(0.1, 40.0);
+      const auto way = std::make_shared<const ClothoidSpline>(
+          Angle::from_radians(Angle::from_degrees(11.0).radians() + turn),
+          std::vector<ClothoidSegment>{
+              {24.0, 0.0, 0.0}, {length, turn / length, turn / length}, {table, 0.0, 0.0}});
+      CHECK(speed_on(way, found.take_off) > ramp * (1.0 - 1e-9));
+    }
+  }
 }
 
 TEST_CASE("no hill is refused for letters that are only tried") {

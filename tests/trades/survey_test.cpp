@@ -281,6 +281,32 @@ TEST_CASE("a survey in site coordinates is turned into the plane of a track that
   CHECK_THAT(named[1].name, Contains("named.csv:3"));
 }
 
+TEST_CASE("points without y are refused where the track leads along y, of which x says nothing") {
+  const Design design = read_design(designs_path("hills/garmisch_hs142.yaml"));
+  const Track track = solve(design);
+  const TempDir folder;
+  for (const double azimuth : {0.0, 60.0, 84.0, 86.0, 90.0, -90.0, 180.0, 271.0}) {
+    CAPTURE(azimuth);
+    const Placement placement(track.placement.start(), Angle::from_degrees(azimuth));
+    std::string csv = "x,z\n";
+    for (int i = 0; i <= 40; ++i) {
+      const CenterlinePoint point = track.centerline->at(track.centerline->length() * i / 40);
+      const Vec3 at = placement.to_space(point.x, point.drop, 0.0);
+      csv += std::to_string(at.x) + "," + std::to_string(at.z) + "\n";
+    }
+    put_bytes(folder / "s.csv", csv);
+    if (std::fabs(std::cos(azimuth * std::numbers::pi / 180.0)) < 0.1) {
+      CHECK_THROWS_WITH(read_survey(folder / "s.csv", placement),
+                        Contains("s.csv: there is no column y, and the track leads along y") &&
+                            Contains("Try: columns x, y and z"));
+      continue;
+    }
+    for (const SurveyedPlace& place :
+         survey_of(*track.centerline, read_survey(folder / "s.csv", placement)).places)
+      CHECK(std::fabs(place.deviation) < 1e-5);
+  }
+}
+
 TEST_CASE("the shipped survey belongs to its hill") {
   const Design design = read_design(designs_path("hills/garmisch_hs142.yaml"));
   const Track track = solve(design);

@@ -106,8 +106,9 @@ void add_frames(const Job& job, Workshop& workshop, const std::vector<double>& j
     const bool before = side == FlangeSide::upstream;
     const ShopPart frame = frame_plate(job, side, before ? downstream : upstream);
     bolts = std::max(frame.pattern->region.holes.size(), frame.pattern->region.cutouts.size());
-    add_in_pieces(frame, frame_line(job, job.options.flanges.width, job.channel.wall_height), !before,
-                  job.options, kFrameColour, workshop);
+    const ArcPath line = frame_line(job, job.options.flanges.width, job.channel.wall_height);
+    measure_bolt_row(bolts_in_order(frame, line), line.closed, workshop);
+    add_in_pieces(frame, line, !before, job.options, kFrameColour, workshop);
   }
   add_joint_bolts(workshop, job.options.flanges, bolts * (joints.size() - 2), joints.size() - 2);
 }

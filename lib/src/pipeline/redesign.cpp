@@ -5,6 +5,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/pipeline/rules.hpp"
 
 #include "optimize/stopped.hpp"
@@ -381,8 +382,17 @@ class FreeShape {
 
   /// @param known  whether there is a shape to tell where none is found
   /// @return the whole track, its table included
-  /// @throws ConvergenceError if there is none; Interrupted if it was to end before there was one, and none is known
+  /// @throws InfeasibleError if table and start area alone are in the way; ConvergenceError if there is none; Interrupted if it was to end
+  ///         before there was one, and none is known
   CenterlinePtr found(const RunContext& context, bool known, std::optional<OptimizeReport>& report) {
+    if (const auto conflict = conflict_of_straights()) {
+      report = OptimizeReport{};
+      report->status = OptimizeStatus::infeasible;
+      report->message = conflict->text;
+      report->objective = problem_.objective;
+      report->conflict = *conflict;
+      throw InfeasibleError({"", conflict->text, conflict->why, ""});
+    }
     const SearchGoesOn goes_on(context);
     OptimizeOptions options;
     options.time_budget = context.time_budget;
@@ -469,7 +479,9 @@ class FreeShape {
     constexpr double kRounding = 1e-9;  // rounding: of lengths that are sums
     constexpr double kLevel = 1e-6;     // accuracy: of the drop, as searches meet it [m]
     if (shape.track == nullptr || !shape.problem.empty()) return false;
-    if (is_speed_given() && shape.take_off_speed < (1.0 - kEnough) * take_off_.speed) return false;
+    // Of one that is faster the body does not take off at that speed, either.
+    if (is_speed_given() && std::fabs(shape.take_off_speed - take_off_.speed) > kEnough * take_off_.speed)
+      return false;
     const double drop = InRun(certificate_).endpoints().drop;
     if (problem_.finish.kind == FinishKind::level && std::fabs(shape.ends.drop - drop) > kLevel) return false;
     const std::vector<double> breaks = shape.track->breaks();
@@ -489,25 +501,73 @@ class FreeShape {
     return std::all_of(checks.begin(), checks.end(), [](const LimitCheck& check) { return check.kept(); });
   }
 
+  /// The speed at the end of a straight as steep as the table, of a body that enters it with one; 0 of one that does not get
+  /// there [m/s].
+  [[nodiscard]] double speed_down(double length, double entry_speed) const {
+    const auto straight = std::make_shared<const ClothoidSpline>(
+        certificate_.alpha, std::vector<ClothoidSegment>{{length, 0.0, 0.0}});
+    Body body = take_off_.body;
+    body.entry_speed = entry_speed;
+    const Motion motion(straight, body, take_off_.gravity);
+    return motion.arrived() ? motion.exit_speed() : 0.0;
+  }
+
+  /// Whether no way over start area and table is slower than one all as steep as the table. On a bend that turns from theta down to
+  /// alpha, q = v^2 exp(-2 mu (theta - alpha)) grows by 2 g (sin(theta) - mu cos(theta)) exp(-2 mu (theta - alpha)) along the track,
+  /// the more the steeper as long as tan(theta) < (1 + 2 mu^2)/mu, which is 2.83 or more, less a drag that is no greater than that
+  /// of the speed sqrt(q) unless the wind comes from behind.
+  [[nodiscard]] bool is_least_on_ramp() const {
+    constexpr double kSteepest = 2.8;  // theory: of 2 sqrt(2), with room
+    const Body& body = take_off_.body;
+    return !body.law && body.friction_changes.empty() && !(body.head_wind < 0.0) &&
+           *problem_.limits.slope_angle.highest < math::atan(kSteepest);
+  }
+
+  /// Why no way to the table can be: table and start area alone are too high, or too fast. No search is needed for that.
+  [[nodiscard]] std::optional<Conflict> conflict_of_straights() const {
+    const double drop = InRun(certificate_).endpoints().drop;
+    if (problem_.finish.kind == FinishKind::level && !(problem_.endpoints.drop > 0.0)) {
+      const auto [own, whole] = texts_apart(drop - problem_.endpoints.drop, drop, &length_text);
+      return Conflict{{},
+                      {},
+                      "the table alone, " + length_text(table_) + ", drops by " + own +
+                          ", which leaves nothing of the in-run's " + whole + "; it would take a shorter one",
+                      "The start is as high above the edge as that of the certificate."};
+    }
+    if (!is_speed_given()) return {};
+    if (const double least = speed_down(table_, 0.0); least > take_off_.speed) {
+      return too_fast("the table alone, " + length_text(table_) + ", gives", least, "a shorter table",
+                      "Whatever lies above the table, a body enters it with no less than that.");
+    }
+    if (!(start_area_ > 0.0) || !is_least_on_ramp()) return {};
+    if (const double least = speed_down(start_area_ + table_, 0.0); least > take_off_.speed) {
+      return too_fast(
+          "start area and table alone, " + length_text(start_area_) + " and " + length_text(table_) +
+              ", give",
+          least, "a shorter start area or table",
+          "No part of the way is less steep than the table: a body is no slower than on a ramp as steep.");
+    }
+    return {};
+  }
+
+  [[nodiscard]] Conflict too_fast(const std::string& what, double least, const std::string& change,
+                                  std::string why) const {
+    const auto [given, wanted] = texts_apart(least, take_off_.speed, [](double speed, int digits) {
+      return quantity_text(speed, Dimension::speed, digits);
+    });
+    return {{},
+            {},
+            what + " more than the take-off speed: " + given + " from rest, " + wanted +
+                " are asked for; it would take " + change + ", or a higher speed",
+            std::move(why)};
+  }
+
   /// The speed where the table begins that gives the take-off speed at its end.
   [[nodiscard]] double speed_above_table() const {
-    const auto table = std::make_shared<const ClothoidSpline>(
-        certificate_.alpha, std::vector<ClothoidSegment>{{table_, 0.0, 0.0}});
-    const auto miss_from = [&](double entry_speed) {
-      Body body = take_off_.body;
-      body.entry_speed = entry_speed;
-      const Motion motion(table, body, take_off_.gravity);
-      return take_off_.speed - (motion.arrived() ? motion.exit_speed() : 0.0);
-    };
-    if (miss_from(0.0) < 0.0) {
-      throw InfeasibleError(
-          {"", "the table alone, " + length_text(table_) + ", gives more than the take-off speed",
-           "Even a start at its beginning is too high.", "a shorter table, or a higher speed"});
-    }
     double speed = take_off_.speed;
     constexpr int kMostRounds = 20;
     for (int round = 0; round < kMostRounds; ++round) {
-      const double miss = miss_from(speed);
+      const double miss = take_off_.speed - speed_down(table_, speed);
       speed = std::max(speed + miss, 0.0);
       if (std::fabs(miss) < kTakeOffAccuracy * take_off_.speed) break;
     }
@@ -824,9 +884,15 @@ Redesign redesign(const Design& design, const RedesignOptions& options, const Ru
   return result;
 }
 
+bool Redesign::is_infeasible() const {
+  return shapes.back().track == nullptr && search && search->status == OptimizeStatus::infeasible;
+}
+
 std::optional<Issue> Redesign::search_problem() const {
   const RedesignShape& free = shapes.back();
-  if (free.track == nullptr) return Issue{"", "there is no free shape: " + free.problem, "", ""};
+  if (free.track == nullptr) {
+    return Issue{"", "there is no free shape: " + free.problem, search ? search->conflict.why : "", ""};
+  }
   if (!search || search->status == OptimizeStatus::optimal) return {};
   const bool early = search->ended_early;
   return Issue{"",
@@ -848,7 +914,10 @@ std::optional<Issue> Redesign::letters_problem() const {
 Design redesigned(const Design& design, const Redesign& found, bool free) {
   Design result = design;
   const RedesignShape& shape = found.shapes.back();
-  if (free && shape.track == nullptr) throw ConvergenceError({"", shape.problem, "", ""});
+  if (free && shape.track == nullptr) {
+    if (found.is_infeasible()) throw InfeasibleError(*found.search_problem());
+    throw ConvergenceError(*found.search_problem());
+  }
   InRunDesign& letters = result.centerline.in_run;
   const double area = letters.start_area().value_or(0.0);
   // Rules count with the speed that it was found for.

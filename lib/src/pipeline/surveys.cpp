@@ -11,6 +11,7 @@
 #include "report/serial/vocabulary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -18,10 +19,25 @@ namespace glissade {
 
 using namespace report;
 
+namespace {
+
+/// Of points without y what their x says of the track, along which it grows by cos(azimuth).
+void require_run_from_x(const std::filesystem::path& file, Angle azimuth) {
+  constexpr double kLeast = 0.1;  // taste: ten millimetres along the track are one of x
+  if (std::fabs(math::cos(azimuth.radians())) >= kLeast) return;
+  throw FileError(
+      {file.string(), "there is no column y, and the track leads along y",
+       "With an azimuth of " + angle_text(azimuth) + " x says next to nothing of where a point lies.",
+       "columns x, y and z"});
+}
+
+}  // namespace
+
 std::vector<SurveyPoint> read_survey(const std::filesystem::path& file, const Placement& placement) {
   const CsvColumns columns = CsvColumns::read(file, "the survey");
   constexpr std::string_view kAxes = "x,z or name,x,y,z, in metres";
   columns.require({{"x", kAxes}, {"z", kAxes}});
+  if (!columns.has("y")) require_run_from_x(file, placement.azimuth());
   const double azimuth = placement.azimuth().radians();
   const Vec3 start = placement.start();
   std::vector<SurveyPoint> points;

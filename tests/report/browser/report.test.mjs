@@ -562,6 +562,34 @@ describe("gates", () => {
   });
 });
 
+describe("places of gates", () => {
+  const rows = (page) => page.locator("table.gates").evaluate((table) => [...table.rows].map((row) => [...row.cells].map((cell) => cell.textContent)));
+
+  test("are x, y and z on the site where the hill is turned in plan, x and z where it is not", async () => {
+    for (const azimuth of [0, 30]) {
+      const file = path.join(work, `turned${azimuth}.yaml`);
+      writeFileSync(file, `glissade: 1
+track: {edge: {x: 0 m, z: 0 m}, azimuth: ${azimuth} deg}
+body: {friction_coefficient: 0.03, drag: 0.0013 1/m}
+centerline: {kind: in-run, gamma: 35 deg, alpha: 11 deg, r1: 103 m, t: 6.9 m, e1: 96 m, es: 24 m, e_counts_to: table}
+gates: {count: 5, measuring_place: 10 m}
+export: [csv]
+`);
+      const { page, complaints } = await open(plain, build(file).file, SMALL);
+      const list = await page.evaluate(() => window.glissadeReport.document.gates.list);
+      const [heads, ...cells] = await rows(page);
+      const axes = azimuth === 0 ? ["x", "z"] : ["x", "y", "z"];
+      assert.deepEqual(heads.slice(0, 2 + axes.length), ["Gate", "To the edge [m]", ...axes.map((axis) => `${axis} [m]`)]);
+      assert.equal(cells.length, list.length);
+      cells.forEach((row, i) => axes.forEach((axis, k) => {
+        assert.ok(Math.abs(Number(row[2 + k].replace("\u2212", "-")) - list[i][`${axis}_m`]) < 1e-3, `${axis} of gate ${i + 1}: ${row[2 + k]}`);
+      }));
+      assert.deepEqual(complaints, []);
+      await page.close();
+    }
+  });
+});
+
 describe("a stream", () => {
   let page;
   let complaints;

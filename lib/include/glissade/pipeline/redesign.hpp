@@ -85,6 +85,8 @@ struct Redesign {
 
   /// @return why the free shape is not known to be the best, or that there is none; none if it is
   [[nodiscard]] std::optional<Issue> search_problem() const;
+  /// @return whether no free shape can be: what it is to keep contradicts itself, or the table alone is too fast or too high
+  [[nodiscard]] bool is_infeasible() const;
   /// @return why there are no letters within the rules; none if there are some
   [[nodiscard]] std::optional<Issue> letters_problem() const;
 };
@@ -107,7 +109,7 @@ struct Redesign {
 
 /// The free shape, or the certificate within the rules, as a design of its own.
 /// @param free  the shape that the search found, of kind segments, or in-run where it has letters; otherwise of kind in-run
-/// @throws ConvergenceError if there is no free shape; InfeasibleError if there are no letters within the rules
+/// @throws ConvergenceError if no free shape was found; InfeasibleError if there can be none, or are no letters within the rules
 [[nodiscard]] Design redesigned(const Design& design, const Redesign& found, bool free);
 
 }  // namespace glissade

@@ -9,7 +9,7 @@
 
 namespace glissade {
 
-/// Measures on a track what rules may bound: the extremes over every friction of its design and every gate in every condition.
+/// Measures on a track what rules may bound: the extremes over every friction of its design and every gate, in every condition, too.
 /// What a design does not tell is missing with the key that would tell it; a ride that does not arrive lacks what only one that
 /// does has, with its name and end. One that stalls has no exit speed and takes endless time.
 [[nodiscard]] Measurements rule_measurements(const Design& design, const Track& track);

@@ -11,7 +11,8 @@
 namespace glissade {
 
 /// Reads measured points from a CSV file: columns `x`, `z` and, if there, `y` and `name`, metres in the frame of the design.
-/// @throws FileError if it cannot be read, lacks a column, has a cell that is no number or no point
+/// @throws FileError if it cannot be read, lacks a column (y, where the track leads within some 6 deg of it), has a cell that is no
+///         number or no point
 [[nodiscard]] std::vector<SurveyPoint> read_survey(const std::filesystem::path& file,
                                                    const Placement& placement);
 

@@ -7,6 +7,7 @@
 #include "parts/bodies/body_moments.hpp"
 #include "parts/plates/bar_pieces.hpp"
 #include "parts/plates/frame_holes.hpp"
+#include "parts/plates/plate_facts.hpp"
 #include "parts/plates/plate_section.hpp"
 #include "parts/plates/plate_unit.hpp"
 #include "parts/plates/section_outside.hpp"
@@ -330,13 +331,15 @@ AngleFrame angle_frame(const AngleSeat& seat, const PlateOptions& options, Flang
     return before ? (2 * count - (seat.ring ? 2 : 1) - i) % count : i;
   };
   AngleFrame frame;
+  frame.closed = seat.ring;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side& side = sides[i];
     const PlaneMotion own = into_own(side);
     AngleBar bar{line_of(side.heel, own), line_of(side.root, own), line_of(side.toe, own), flange.thickness,
                  flange.width};
     // Holes, or slots, come in the order of the bolts.
-    for (std::size_t k = bolts_on(side, flange).size(); k > 0; --k, ++frame.bolts) {
+    frame.rows.push_back(bolts_on(side, flange));
+    for (std::size_t k = frame.rows.back().size(); k > 0; --k, ++frame.bolts) {
       if (!drilled.holes.empty()) {
         const Circle& hole = drilled.holes[frame.bolts];
         bar.holes.push_back({own(hole.centre), hole.radius});
@@ -362,6 +365,11 @@ AngleFrame angle_frame(const AngleSeat& seat, const PlateOptions& options, Flang
 
 void add_angle_frame(const AngleFrame& frame, FlangeSide of_joint, const PlateOptions& options,
                      Workshop& workshop) {
+  std::vector<RowBolt> row;
+  for (std::size_t i = 0; i < frame.rows.size(); ++i) {
+    for (const Vec2 middle : frame.rows[i]) row.push_back({middle, &frame.pieces[i]});
+  }
+  measure_bolt_row(row, frame.closed, workshop);
   for (const ShopPart& whole : frame.pieces) {
     std::vector<ShopPart> pieces = angle_pieces(whole, of_joint == FlangeSide::downstream, options);
     if (pieces.size() > 1) note_bar_pieces(options, workshop);

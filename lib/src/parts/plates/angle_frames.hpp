@@ -37,13 +37,16 @@ void add_angle_seat_problems(const AngleSeat& seat, const PlateOptions& options,
 struct AngleFrame {
   std::vector<ShopPart> pieces;
   std::size_t bolts = 0;  ///< of one frame
+  /// Of each piece, middles in the plane of the joint, in the order in which pieces and bolts go round the section [m].
+  std::vector<std::vector<Vec2>> rows;
+  bool closed = false;  ///< all round it
 };
 /// @param places  of the joints' faces: x to the left, y up, z downstream, origins on the floor line
 /// @throws InputError where `flanges.pitch` if slots would stand too near each other
 [[nodiscard]] AngleFrame angle_frame(const AngleSeat& seat, const PlateOptions& options, FlangeSide of_joint,
                                      const std::vector<Frame>& places);
 
-/// Adds its pieces, cut to the lengths that bars come in.
+/// Adds its pieces, cut to the lengths that bars come in, and measures how far apart its bolts are.
 /// @throws InputError as angle_pieces()
 void add_angle_frame(const AngleFrame& frame, FlangeSide of_joint, const PlateOptions& options,
                      Workshop& workshop);

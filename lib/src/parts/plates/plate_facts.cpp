@@ -9,12 +9,14 @@
 #include "core/arc_pieces.hpp"
 #include "core/least_rectangle.hpp"
 #include "parts/plates/fittings.hpp"
+#include "parts/plates/frame_pieces.hpp"
 #include "parts/shop/shop_facts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace glissade::parts {
 namespace {
@@ -24,10 +26,6 @@ double edge_distance(const ArcPath& path, Vec2 point) {
   for (const PathPiece& piece : pieces_of(path))
     least = std::min(least, core::distance_to_piece(piece, point));
   return least;
-}
-
-bool is_frame(const ShopPart& part) {
-  return part.name.find("frame") != std::string::npos || part.name.find("flange") != std::string::npos;
 }
 
 void measure_holes(const ShopPart& part, ShopFacts& facts) {
@@ -54,7 +52,6 @@ void measure_holes(const ShopPart& part, ShopFacts& facts) {
     facts.of(part, "web_thicknesses", web, part.thickness);
     if (holes.size() < 2) continue;
     facts.of(part, "hole_pitch_diameters", nearest, hole);
-    if (is_frame(part)) facts.of(part, "bolt_pitch", nearest);
   }
 }
 
@@ -141,6 +138,33 @@ void measure_plates(const PlateOptions& options, Workshop& workshop) {
     // Through the grate it falls however it is drawn.
     facts.of(part, "part_width", core::least_size(part.pattern->region.outline).y);
   }
+}
+
+std::vector<RowBolt> bolts_in_order(const ShopPart& frame, const ArcPath& line) {
+  const BandLine along(line);
+  std::vector<std::pair<double, Vec2>> places;
+  const auto add = [&](Vec2 middle) { places.emplace_back(along.nearest(middle), middle); };
+  for (const Circle& hole : frame.pattern->region.holes) add(hole.centre);
+  for (const ArcPath& cutout : frame.pattern->region.cutouts) {
+    if (const auto slot = as_slot(cutout)) add(slot->middle);
+  }
+  std::sort(places.begin(), places.end(),
+            [](const auto& one, const auto& other) { return one.first < other.first; });
+  std::vector<RowBolt> row;
+  row.reserve(places.size());
+  for (const auto& [s, middle] : places) row.push_back({middle, &frame});
+  return row;
+}
+
+void measure_bolt_row(const std::vector<RowBolt>& row, bool closed, Workshop& workshop) {
+  if (row.size() < 2) return;
+  std::vector<std::pair<double, const ShopPart*>> gaps;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < row.size(); ++i)
+    gaps.emplace_back(norm(row[(i + 1) % row.size()].middle - row[i].middle), row[i].part);
+  const auto [least, most] = std::minmax_element(
+      gaps.begin(), gaps.end(), [](const auto& one, const auto& other) { return one.first < other.first; });
+  ShopFacts facts(workshop);
+  for (const auto& gap : {least, most}) facts.of(*gap->second, "bolt_pitch", gap->first);
 }
 
 void measure_rolling(double radius, const ShopPart& part, const std::string& where, Workshop& workshop) {

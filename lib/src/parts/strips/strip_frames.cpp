@@ -9,6 +9,7 @@
 #include "parts/plates/frame_holes.hpp"
 #include "parts/plates/frame_pieces.hpp"
 #include "parts/plates/frame_room.hpp"
+#include "parts/plates/plate_facts.hpp"
 #include "parts/plates/plate_unit.hpp"
 #include "parts/shop/workshop_list.hpp"
 
@@ -208,7 +209,9 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
       frame.places = {place_of_frame(job, joints[i], before ? -job.options.flanges.thickness : 0.0)};
       if (before && i + 1 < joints.size()) bolts += bolts_of(frame, job.section.ring);
       weigh(frame);
-      add_in_pieces(frame, line_in_frame(job, outside), !before, job.options, kFrameColour, workshop);
+      const ArcPath line = line_in_frame(job, outside);
+      measure_bolt_row(bolts_in_order(frame, line), line.closed, workshop);
+      add_in_pieces(frame, line, !before, job.options, kFrameColour, workshop);
     }
   }
   add_joint_bolts(workshop, job.options.flanges, bolts, joints.size() - 2);

@@ -506,14 +506,15 @@ void add_rings(const PipeJob& job, const std::vector<GoreUnit>& units, Workshop&
                                    : ring_place(job, last, last.body.length, -job.options.flanges.thickness));
   }
   const FlangeOptions& flange = job.options.flanges;
-  const double pitch_radius = job.radius() + job.pipe.thickness + flange.gap + 0.5 * flange.width;
+  const double inner = job.radius() + job.pipe.thickness + flange.gap;
+  const ArcPath line = line_round(job, inner + (angles ? bolt_line(flange) : 0.5 * flange.width));
   // Those that are not slotted are round.
   const std::size_t bolts = std::max(before.pattern->region.holes.size(), after.pattern->region.holes.size());
   for (ShopPart* part : {&before, &after}) {
     weigh(*part);
+    measure_bolt_row(bolts_in_order(*part, line), line.closed, workshop);
     if (!angles) {
-      add_in_pieces(*part, line_round(job, pitch_radius), part == &after, job.options, kFrameColour,
-                    workshop);
+      add_in_pieces(*part, line, part == &after, job.options, kFrameColour, workshop);
       continue;
     }
     std::vector<ShopPart> pieces = angle_pieces(*part, part == &after, job.options);

@@ -297,15 +297,23 @@ std::optional<Sheet> cross_section_sheet(const Design& design, const SheetLength
 SheetTable gates_sheet_table(const GateTable& gates, const SheetLengths& lengths) {
   SheetTable table;
   table.caption = "Gates, speed " + rounded_text(gates.measuring_place, 4) + " m before the edge";
-  table.header = {"gate", lengths.head("to edge"), lengths.head("x"), lengths.head("z")};
-  table.widths_mm = {14.0, 22.0, 24.0, 24.0};
+  table.header = {"gate", lengths.head("to edge"), lengths.head("x")};
+  table.widths_mm = {14.0, 22.0, 24.0};
+  if (gates.has_y()) {
+    table.header.push_back(lengths.head("y"));
+    table.widths_mm.push_back(24.0);
+  }
+  table.header.push_back(lengths.head("z"));
+  table.widths_mm.push_back(24.0);
   for (const GateCondition& condition : gates.conditions) {
     table.header.push_back(condition.name + " [m/s]");
     table.widths_mm.push_back(30.0);
   }
   for (std::size_t i = 0; i < gates.gates.size(); ++i) {
     Row row = {std::to_string(gates.gates[i].number), lengths.place(gates.gates[i].to_edge),
-               lengths.place(gates.positions[i].x), lengths.place(gates.positions[i].z)};
+               lengths.place(gates.positions[i].x)};
+    if (gates.has_y()) row.push_back(lengths.place(gates.positions[i].y));
+    row.push_back(lengths.place(gates.positions[i].z));
     for (const GateCondition& condition : gates.conditions) {
       const GateRide& ride = condition.rides[i];
       row.push_back(ride.speed_at_measuring_place ? rounded_text(*ride.speed_at_measuring_place, 4) : "-");
@@ -339,18 +347,26 @@ SheetTable coordinates_sheet_table(const Design& design, const Track& track, con
   table.header.emplace_back("slope [deg]");
   table.header.push_back(lengths.head("radius"));
   table.widths_mm = {12.0, 22.0, 22.0, 28.0, 28.0, 28.0, 22.0, 24.0};
+  const std::vector<ProfileStation> stations = coordinate_table(design, track, options);
+  constexpr double kRounding = 1e-9;  // rounding: of a turn by 180 deg [m]
+  const bool has_y = std::any_of(stations.begin(), stations.end(), [](const ProfileStation& station) {
+    return std::fabs(station.position.y) > kRounding;
+  });
   for (const ParallelLine& line : options.parallels) {
-    table.header.push_back(lengths.head(line.name + " x, z"));
-    table.widths_mm.push_back(46.0);
+    table.header.push_back(lengths.head(line.name + (has_y ? " x, y, z" : " x, z")));
+    table.widths_mm.push_back(has_y ? 66.0 : 46.0);
   }
-  for (const ProfileStation& station : coordinate_table(design, track, options)) {
+  for (const ProfileStation& station : stations) {
     Row row = {station.name};
     for (const double value :
          {station.arc_length, station.to_edge, station.position.x, station.position.y, station.position.z})
       row.push_back(lengths.place(value));
     row.push_back(fixed_text(station.slope_angle.degrees(), kDecimals));
     row.push_back(lengths.radius(station.curvature, track.centerline->length()));
-    for (const Vec3& at : station.parallels) row.push_back(lengths.place(at.x) + ", " + lengths.place(at.z));
+    for (const Vec3& at : station.parallels) {
+      row.push_back(lengths.place(at.x) + ", " + (has_y ? lengths.place(at.y) + ", " : "") +
+                    lengths.place(at.z));
+    }
     table.rows.push_back(std::move(row));
   }
   return table;

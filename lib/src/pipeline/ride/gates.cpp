@@ -33,10 +33,12 @@ Body in_condition(Body body, const ConditionDesign& condition, const std::option
   return body;
 }
 
+using Conditions = std::vector<std::pair<std::string, Body>>;
+
 /// The design's own condition, and slow and fast ones: those given, or the ends of its range of friction.
-std::vector<std::pair<std::string, Body>> conditions_of(const Design& design) {
+Conditions conditions_of(const Design& design) {
   const Body nominal = body_of(design);
-  std::vector<std::pair<std::string, Body>> conditions = {{"nominal", nominal}};
+  Conditions conditions = {{"nominal", nominal}};
   const auto add = [&](const char* name, const std::optional<ConditionDesign>& given,
                        const std::optional<Friction>& end_of_range) {
     if (given) {
@@ -50,6 +52,19 @@ std::vector<std::pair<std::string, Body>> conditions_of(const Design& design) {
   add("slow", design.gates->slow, design.body.high_friction);
   add("fast", design.gates->fast, design.body.low_friction);
   return conditions;
+}
+
+/// The ends of the design's range of friction in whose place conditions are given: who adds one takes no ride from what is judged.
+Conditions range_beside(const Design& design) {
+  Conditions ends;
+  const auto add = [&](const char* name, bool replaced, const std::optional<Friction>& friction) {
+    if (!replaced || !friction) return;
+    ends.emplace_back(name, body_of(design));
+    ends.back().second.friction = *friction;
+  };
+  add("high friction", design.gates->slow.has_value(), design.body.high_friction);
+  add("low friction", design.gates->fast.has_value(), design.body.low_friction);
+  return ends;
 }
 
 double largest_height_step(const std::vector<Vec3>& positions) {
@@ -90,10 +105,16 @@ std::optional<GateTable> gate_table(const Design& design, const CenterlinePtr& c
       table.positions.push_back(placement.to_space(point.x, point.drop, 0.0));
     }
     table.largest_height_step = largest_height_step(table.positions);
-    for (auto& [name, body] : conditions_of(design)) {
-      table.conditions.push_back(
-          {name, body, ride_gates(centerline, table.gates, body, table.measuring_place, design.gravity)});
-    }
+    const auto ridden = [&](const Conditions& conditions) {
+      std::vector<GateCondition> all;
+      for (const auto& [name, body] : conditions) {
+        all.push_back(
+            {name, body, ride_gates(centerline, table.gates, body, table.measuring_place, design.gravity)});
+      }
+      return all;
+    };
+    table.conditions = ridden(conditions_of(design));
+    table.range = ridden(range_beside(design));
     return table;
   });
 }

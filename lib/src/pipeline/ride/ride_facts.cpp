@@ -71,9 +71,11 @@ std::vector<RideFacts> all_rides(const Track& track) {
   std::vector<RideFacts> all;
   // Of equals the first is told: that from a gate.
   if (track.gates) {
-    for (const GateCondition& condition : track.gates->conditions) {
-      for (const GateRide& ride : condition.rides)
-        all.push_back(facts_of(ride, place_of(*track.gates, condition, ride)));
+    for (const auto* const conditions : {&track.gates->conditions, &track.gates->range}) {
+      for (const GateCondition& condition : *conditions) {
+        for (const GateRide& ride : condition.rides)
+          all.push_back(facts_of(ride, place_of(*track.gates, condition, ride)));
+      }
     }
   }
   for (RideFacts& ride : rides_from_start(track)) all.push_back(std::move(ride));

@@ -34,7 +34,7 @@ struct RideFacts {
 
 /// @return the rides from the start of a track at every friction of its range
 [[nodiscard]] std::vector<RideFacts> rides_from_start(const Track& track);
-/// @return those from every gate in every condition, and rides_from_start()
+/// @return those from every gate in every condition and at every friction of a range, and rides_from_start()
 [[nodiscard]] std::vector<RideFacts> all_rides(const Track& track);
 
 /// Adds one ride to the quantities that every track has.

@@ -17,8 +17,9 @@ namespace glissade::pipeline {
 namespace {
 
 /// The take-off speeds from the fastest and from the slowest gate of each condition.
-void measure_take_off(const GateTable& table, Measurements& measurements) {
-  for (const GateCondition& condition : table.conditions) {
+void measure_take_off(const GateTable& table, const std::vector<GateCondition>& conditions,
+                      Measurements& measurements) {
+  for (const GateCondition& condition : conditions) {
     Extremes speeds;
     for (const GateRide& ride : condition.rides) {
       const RideFacts facts = facts_of(ride, place_of(table, condition, ride));
@@ -35,21 +36,10 @@ void measure_take_off(const GateTable& table, Measurements& measurements) {
   }
 }
 
-/// The friction of a range from the highest gate, where that is the start of the track.
-void measure_take_off_of_range(const Track& track, Measurements& measurements) {
-  if (track.gates->gates.empty() || track.gates->gates.back().from_start != 0.0) return;
-  for (const RideFacts& facts : rides_from_start(track)) {
-    Extremes speed;
-    see_exit_speed(facts, speed);
-    if (speed.most()) measurements.see("highest_take_off_speed", *speed.most());
-    if (!facts.arrived()) measurements.lack("highest_take_off_speed", missing_arrival(facts));
-  }
-}
-
 void measure_gates(const Track& track, Measurements& measurements) {
   const GateTable& table = *track.gates;
-  measure_take_off(table, measurements);
-  measure_take_off_of_range(track, measurements);
+  measure_take_off(table, table.conditions, measurements);
+  measure_take_off(table, table.range, measurements);
   for (std::size_t i = 1; i < table.positions.size(); ++i)
     measurements.see("gate_step_height", table.positions[i].z - table.positions[i - 1].z);
 }

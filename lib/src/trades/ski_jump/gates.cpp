@@ -194,6 +194,12 @@ std::vector<GateRide> ride_gates(const CenterlinePtr& track, const std::vector<G
   return rides;
 }
 
+bool GateTable::has_y() const {
+  constexpr double kRounding = 1e-9;  // rounding: of a turn by 180 deg [m]
+  return std::any_of(positions.begin(), positions.end(),
+                     [](const Vec3& at) { return std::fabs(at.y) > kRounding; });
+}
+
 std::optional<double> gate_for_speed(const std::vector<GateRide>& rides, double speed) {
   for (std::size_t i = 0; i < rides.size(); ++i) {
     const std::optional<double> above = rides[i].speed_at_measuring_place;

@@ -95,7 +95,7 @@ inline constexpr double kSpeedSlopeAccuracy = 1e-10;
 
 /// The rides of one body in one condition of track and air.
 struct GateCondition {
-  std::string name;  ///< "nominal", "slow", "fast"
+  std::string name;  ///< "nominal", "slow", "fast"; of a range "low friction", "high friction"
   Body body;
   std::vector<GateRide> rides;  ///< one a gate
 };
@@ -107,6 +107,11 @@ struct GateTable {
   std::vector<Vec3> positions;            ///< of the gates, in space [m]
   double largest_height_step = 0.0;       ///< from one gate to the next [m]; 0 of a single gate
   std::vector<GateCondition> conditions;  ///< the nominal one first
+  /// Ends of a range of friction that are none of the conditions, "low friction" and "high friction": rules hold there, too.
+  std::vector<GateCondition> range;
+
+  /// @return whether a gate's y is other than 0 but for rounding, as on a track that is turned in plan
+  [[nodiscard]] bool has_y() const;
 };
 
 /// @return the gate, as a number between gates where it falls between them, whose speed at the measuring place is

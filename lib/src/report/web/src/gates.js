@@ -64,16 +64,18 @@ const PER_CONDITION = [
 function table(doc, units) {
   const { list, conditions } = doc.gates;
   const place = units.place(doc.ride.arc_length_m, true);
+  // On the site; y where the track is turned in plan, but for rounding.
+  const axes = ["x", "y", "z"].filter((axis) => axis !== "y" || list.some((gate) => Math.abs(gate.y_m) > 1e-9));
   const columns = [
     ["To the edge", "length", list.map((gate) => gate.distance_to_edge_m)],
-    ["z", "length", list.map((gate) => gate.z_m)],
+    ...axes.map((axis) => [axis, "length", list.map((gate) => gate[`${axis}_m`])]),
     ...conditions.flatMap((condition) => PER_CONDITION.map(([head, quantity, key]) => [
       conditions.length > 1 ? `${head}, ${condition}` : head, quantity,
       list.map((gate) => ridden(gate, condition, conditions[0])[key]),
     ])),
   ].map(([head, quantity, values]) => {
     const shown = values.map((value) => units.convert(quantity, value));
-    const text = head === "z" ? (_, i) => place(values[i]) : columnText(shown, 4);
+    const text = axes.includes(head) ? (_, i) => place(values[i]) : columnText(shown, 4);
     return [head, units.unit(quantity), shown.map((value, i) => (value === null ? "\u2013" : text(value, i)))];
   });
   return scrollable("Table of gates", element("table", { class: "gates stations" },
