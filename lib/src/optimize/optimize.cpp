@@ -277,8 +277,9 @@ Optimum searched_by_objective(const Problem& problem, const OptimizeOptions& opt
 /// A friction inside the range at which the track found wears more than at those that were searched with, and as much as matters.
 std::optional<Friction> wearing_more(const Problem& problem, const Optimum& optimum) {
   constexpr double kApart =
-      1e-3;                       // taste: a peak is flat, and next to a friction that is known hardly higher
-  constexpr double kNear = 0.99;  // taste: of a bound that may bind
+      1e-3;  // taste: a peak is flat, and next to a friction that is known hardly higher
+  // What keeps a friction that no row of a program knows falls short of the bound.
+  constexpr double kNear = 0.8;  // taste: of a bound that may bind
   const bool is_least = problem.objective.kind == ObjectiveKind::least_peak_wear;
   const std::optional<double>& highest = problem.limits.highest_floor_wear;
   if (!optimum.centerline || optimum.report.ended_early || (!is_least && !highest)) return {};
@@ -309,6 +310,9 @@ Optimum searched_over_range(Problem problem, const OptimizeOptions& options, con
   for (int round = 0; more && round < kMostFrictions; ++round) {
     problem.further_frictions.push_back(*more);
     Optimum next = searched_by_objective(problem, options, stop, progress);
+    next.report.iterations += best.report.iterations;
+    next.report.evaluations += best.report.evaluations;
+    next.report.seconds += best.report.seconds;
     const bool is_worse = !next.centerline || (next.report.status != OptimizeStatus::optimal &&
                                                best.report.status == OptimizeStatus::optimal);
     if (is_worse) break;
