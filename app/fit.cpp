@@ -57,7 +57,7 @@ std::string with_uncertainty(double value, const std::optional<double>& uncertai
 
 std::string resistance_text(const CommonResistance& designed) {
   const auto text = [](const std::optional<double>& value, const char* unit) {
-    return value ? rounded_text(*value, 4) + unit : std::string("of each design");
+    return value ? rounded_text(*value, 4) + unit : std::string("as each design has it");
   };
   return "friction " + text(designed.friction, "") + ", drag " + text(designed.drag, " 1/m");
 }

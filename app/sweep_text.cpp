@@ -65,16 +65,17 @@ std::string batch_text(const std::vector<std::string>& arguments, const std::str
       "#!/bin/bash\n"
       "# Written by glissade sweep --slurm. Submit it where the command was given: paths are relative to "
       "that folder.\n"
-      "# A task that dies is submitted again; what is written is not computed twice.\n"
+      "# A task that dies is submitted again, alone with --array=NUMBER; what is written is not computed "
+      "twice.\n"
       "#SBATCH --job-name=glissade-sweep\n";
   text += "#SBATCH --array=0-" + std::to_string(tasks - 1) + "\n";
   text += "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n";
   text += "#SBATCH --output=" + for_shell(directory + "/slurm-%A_%a.log") + "\n\n";
   text += "exec \"${GLISSADE:-glissade}\"";
   for (const std::string& word : arguments) text += " " + for_shell(word);
-  text +=
-      " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" "
-      "--quiet\n";
+  // Not SLURM_ARRAY_TASK_COUNT: of tasks that are submitted again it counts those alone.
+  text += " \\\n  --shard \"$SLURM_ARRAY_TASK_ID/" + std::to_string(tasks) +
+          "\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --quiet\n";
   return text;
 }
 

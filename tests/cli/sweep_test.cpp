@@ -185,9 +185,30 @@ TEST_CASE("sweep: --slurm writes a batch file that gives every task its shard, a
       Contains(
           "--scatter 'body.friction_angle=normal(17deg,1.5deg)' --samples 40000 --sampling sobol --seed 1 "
           "--frozen -o 'a sweep'"));
-  CHECK_THAT(batch, Contains("--shard \"$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT\""));
+  CHECK_THAT(batch, Contains("--shard \"$SLURM_ARRAY_TASK_ID/8\" "));
   CHECK_FALSE(std::filesystem::exists(place / "a sweep/chunks"));
   CHECK(run_program("bash", {"-n", (place / "a sweep/sweep.sbatch").string()}).exit_code == 0);
+}
+
+TEST_CASE("sweep: a task of the batch file that is submitted again alone computes the shard that it had") {
+  const TempDir place;
+  // Chunks of 1,000 points: the last one has one.
+  REQUIRE(sweep(place, {shipped("grain_chute"), "--vary", "body.friction_angle=10deg:20deg:2001", "--frozen",
+                        "-o", "s", "--slurm", "--tasks", "3"})
+              .exit_code == 0);
+  RunLimits limits;
+  limits.directory = place.path();
+  // As Slurm does after `sbatch --array=2`.
+  const Outcome outcome =
+      run_program("env",
+                  {"GLISSADE=" + glissade_program(), "SLURM_ARRAY_TASK_ID=2", "SLURM_ARRAY_TASK_COUNT=1",
+                   "SLURM_CPUS_PER_TASK=1", "bash", "s/sweep.sbatch"},
+                  limits);
+  INFO(outcome.errors);
+  CHECK(outcome.exit_code == 0);
+  CHECK(std::filesystem::exists(place / "s/chunks/000002.csv"));
+  CHECK_FALSE(std::filesystem::exists(place / "s/chunks/000000.csv"));
+  CHECK_FALSE(std::filesystem::exists(place / "s/chunks/000001.csv"));
 }
 
 TEST_CASE("sweep: a standard output that takes nothing costs the page nothing, and the message tells of it") {

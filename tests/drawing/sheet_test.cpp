@@ -158,6 +158,29 @@ TEST_CASE("templates at 1:1 cover the drawing with overlapping windows and show 
   require_covered(drawing, rolls);
 }
 
+TEST_CASE("the bars of 100 mm on templates stand beside the pattern, and on the paper") {
+  const Drawing drawing = plate();
+  std::vector<Sheet> sheets = roll_template(drawing, title());
+  for (const PaperSize size : {PaperSize::a4, PaperSize::a3}) {
+    for (Sheet& sheet : tiled_template(drawing, title(), size, 10.0)) sheets.push_back(std::move(sheet));
+  }
+  for (const Sheet& sheet : sheets) {
+    REQUIRE(sheet.views.size() >= 2);
+    REQUIRE(sheet.views[0].clip);
+    const PlaneBox& window = *sheet.views[0].clip;
+    double highest = 0.0;
+    for (const DrawnPath& drawn : sheet.views[1].drawing.paths) {
+      const PlaneBox line = bounds(drawn.path);
+      highest = std::max(highest, line.high.y - line.low.y);
+      CHECK((line.high.x < window.low.x || line.high.y < window.low.y));
+      // Office printers leave 8 mm white.
+      CHECK(line.low.x >= 8.0 - 1e-9);
+      CHECK(line.low.y >= 8.0 - 1e-9);
+    }
+    CHECK(highest == Approx(100.0));
+  }
+}
+
 TEST_CASE("a roll that is longer than a page of a PDF may be is several, with crosses and a key") {
   Drawing drawing;
   const std::size_t layer = drawing.layer({"CUT", LineStyle::continuous, 0.25, 7});

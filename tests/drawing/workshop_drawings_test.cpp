@@ -191,7 +191,10 @@ TEST_CASE("tables as CSV: units in the header, one row each, texts with commas i
   const std::string out = setting_out_csv(workshop);
   // The distance travelled, whichever way the track runs: as `run_m` of stations.
   CHECK(out.starts_with("what,arc_length_mm,run_mm,z_mm,site_x_m,"));
-  CHECK(out.find("ordinate_mm,underside mm\nstart,0,0,0,0,0,0,") != std::string::npos);
+  CHECK(out.find("ordinate_mm,underside_plumb_mm\nstart,0,0,0,0,0,0,") != std::string::npos);
+  // A line that ends short of a place has no level there.
+  workshop.setting_out.front().offsets = {std::nullopt};
+  CHECK(setting_out_csv(workshop).find(",2500,0,\njoint 1,") != std::string::npos);
   // What is upright rises without bound, over whatever rounding leaves of its run.
   for (const auto& [degrees, percent] :
        {std::pair(90.0, "90,inf"), std::pair(-90.0, "-90,-inf"), std::pair(45.0, "45,100")}) {

@@ -4,6 +4,7 @@
 #include "glissade/centerline/clothoid_spline.hpp"
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/core/error.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/parts/plates.hpp"
 
 #include "parts/chute_plates.hpp"
@@ -131,8 +132,23 @@ TEST_CASE("trestles: legs stand from their base plates to the beam, saddles fit 
     CHECK(std::fabs(nearest - 4e-3) < 1e-4);
   }
   std::size_t set_out = 0;
-  for (const SettingOutPoint& row : build.workshop.setting_out)
-    set_out += row.what.starts_with("support") ? 1 : 0;
+  for (const SettingOutPoint& row : build.workshop.setting_out) {
+    if (!row.what.starts_with("support")) continue;
+    ++set_out;
+    INFO(row.what);
+    // Plumb above the middle of base plates whose underside has the level that is told.
+    const double foot = std::stod(row.what.substr(row.what.find("foot z ") + 7)) * 1e-3;
+    double off = 1.0;
+    for (const Frame& place : plates_below.front()->places) {
+      const PlaneBox plate = bounds(plates_below.front()->pattern->region.outline);
+      const Vec2 middle = 0.5 * (plate.low + plate.high);
+      const Vec3 at = place.to_space({middle.x, middle.y, 0.0});
+      const Vec3 other = place.to_space({middle.x, middle.y, plates_below.front()->thickness});
+      if (std::fabs(std::min(at.z, other.z) - foot) < 1e-5) off = std::min(off, std::fabs(at.x - row.x));
+    }
+    CHECK(off < 1e-9);
+    CHECK(row.what.find("middle x " + rounded_text(row.x * 1e3, 6) + ", ") != std::string::npos);
+  }
   CHECK(set_out == saddles.size());
   CHECK_FALSE(named(build, "brace").empty());
 }

@@ -6,6 +6,7 @@
 #include "glissade/centerline/straight_line.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "parts/bodies/joint_face.hpp"
@@ -713,6 +714,14 @@ TEST_CASE(
   for (const SettingOutPoint& row : build.workshop.setting_out) {
     if (!row.what.starts_with("stand ")) continue;
     ++stands;
+    INFO(row.what);
+    // Plumb above the middle of its blocks, where the track reaches so far.
+    CHECK(std::any_of(build.workshop.parts.begin(), build.workshop.parts.end(), [&](const ShopPart& part) {
+      return part.name.starts_with("stand_") && part.name != "stand_pin" &&
+             std::any_of(part.places.begin(), part.places.end(),
+                         [&](const Frame& place) { return std::fabs(place.origin.x - row.x) < 1e-9; });
+    }));
+    CHECK(row.what.find("middle x " + rounded_text(row.x * 1e3, 6) + ", foot z ") != std::string::npos);
     if (last > 0.0) CHECK(row.x - last <= 0.12 + 0.02);
     last = row.x;
   }

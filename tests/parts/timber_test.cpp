@@ -159,11 +159,26 @@ TEST_CASE(
   REQUIRE(beams.workshop.offset_names.size() == 3);
   for (const SettingOutPoint& point : beams.workshop.setting_out) {
     REQUIRE(point.offsets.size() == 3);
-    const double cosine = math::cos(point.slope_angle.radians());
-    CHECK(point.offsets[0] == Approx(point.z - 60e-3 * cosine).margin(1e-12));
-    CHECK(point.offsets[1] == Approx(point.z - (60e-3 + 70e-3 + 2e-3) * cosine).margin(1e-12));
-    CHECK(point.offsets[2] == Approx(point.z - (60e-3 + 70e-3 + 2e-3 + 0.4) * cosine).margin(1e-12));
+    const std::vector<double> depths = {60e-3, 60e-3 + 70e-3 + 2e-3, 60e-3 + 70e-3 + 2e-3 + 0.4};
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+      INFO(point.what << ", " << beams.workshop.offset_names[i]);
+      // Downhill the lines end square to the track, short of its finish.
+      const CenterlinePoint finish = track.at(track.length());
+      const double end = finish.x - depths[i] * math::sin(finish.slope_angle);
+      CHECK(point.offsets[i].has_value() == (point.x < end));
+      if (!point.offsets[i]) continue;
+      double nearest = 1.0;
+      for (int k = 0; k <= 20'000; ++k) {
+        const CenterlinePoint at = track.at(std::min(track.length(), track.length() * k / 20'000.0));
+        nearest = std::min(nearest, std::hypot(at.x - point.x, -at.drop - *point.offsets[i]));
+      }
+      CHECK(nearest == Approx(depths[i]).margin(1e-5));
+    }
   }
+  const std::vector<std::string>& notes = beams.workshop.notes;
+  CHECK(std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+          return note.starts_with("Ends of the underside of beams, run and z in mm: -341.");
+        }) == 1);
 }
 
 TEST_CASE(

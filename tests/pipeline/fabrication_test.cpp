@@ -275,7 +275,7 @@ TEST_CASE(
   std::ifstream table(place / "out" / "sand_ski_ramp_in_timber.setting_out.csv");
   std::string head;
   std::getline(table, head);
-  CHECK(head.ends_with("underside of deck,top of ribs,underside of ribs"));
+  CHECK(head.ends_with("underside_of_deck_plumb_mm,top_of_ribs_plumb_mm,underside_of_ribs_plumb_mm"));
 }
 
 TEST_CASE(

@@ -238,7 +238,7 @@ inline glissade::Workshop sample_workshop() {
       {"joint 1", 2.0, 1.4, -1.1, {1.4, 0.0, -1.1}, glissade::Angle::from_radians(0.6), 2.5, 0.1, {-0.1}});
   workshop.setting_out.push_back(
       {"end", 3.0, 2.4, -1.3, {2.4, 0.0, -1.3}, glissade::Angle::from_radians(0.1), 2.5, 0.0, {-0.1}});
-  workshop.offset_names = {"underside mm"};
+  workshop.offset_names = {"underside"};
   workshop.checks.push_back({"smallest hole", glissade::ShopVerdict::pass, "14 mm", "at least 4 mm", "part 1",
                              "a source", "Holes are wide enough.", "secondary", true});
   workshop.notes = {"Floor: rolled; K = 0.5"};

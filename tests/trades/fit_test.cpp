@@ -175,6 +175,12 @@ TEST_CASE("hills whose bodies, winds and gravities differ are told apart, in wha
   }
   CHECK_FALSE(common_resistance(readings).friction);
   CHECK_FALSE(common_resistance(readings).drag);
+  // Of one design, whose friction is not one number.
+  SpeedReading changing = readings.front();
+  CHECK(common_resistance({changing}).friction == changing.body.friction.coefficient());
+  changing.body.friction_changes = {{1.0, Friction::from_coefficient(0.2)}};
+  CHECK_FALSE(common_resistance({changing}).friction);
+  CHECK(common_resistance({changing}).drag == changing.body.drag_per_metre);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const Motion ride(readings[i].track, readings[i].body, readings[i].gravity);
     CHECK(speed_residuals(readings)[i].computed == Approx(ride.at(readings[i].place).speed).epsilon(1e-12));
@@ -275,6 +281,19 @@ TEST_CASE("a reading without a track is told by its name") {
   CHECK_THROWS_WITH(speed_residuals(readings), Contains("hill 3: the reading has no track"));
 }
 
+TEST_CASE("columns that are misspelt are told, not passed over; others are the reader's own") {
+  const std::string hill = "hills/garmisch_hs142.yaml";
+  for (const char* const slip : {"before_egde_m", "beforeedge_m", "Before_Edge_m", "before"}) {
+    INFO(slip);
+    CHECK_THAT(problem_of("gate,speed_km_h," + std::string(slip) + "\n1,85,3\n", hill),
+               Contains("speeds.csv:1: nobody reads a column \"" + std::string(slip) + "\"") &&
+                   Contains("There is a column \"before_edge_m\""));
+  }
+  CHECK_THAT(problem_of("gate,speed_km_h,counts\n1,85,3\n", hill), Contains("There is a column \"count\""));
+  CHECK(problem_of("gate,speed_km_h,before_edge_m,wind_m_per_s,date,n,remarks\n1,85,3,1,2,3,4\n", hill) ==
+        "");
+}
+
 TEST_CASE("lines of speeds that do not belong to their hill are told with line, value and a way out") {
   CHECK(problem_of("gate,speed_km_h\n1,85\n49,92\n", "hills/garmisch_hs142.yaml") == "");
   CHECK_THAT(problem_of("gate,speed_km_h\n50,85\n", "hills/garmisch_hs142.yaml"),
@@ -293,6 +312,8 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
   CHECK_THAT(problem_of("x,z\n1,85\n"), Contains("there is no column \"design\"") &&
                                             Contains("there is no column \"length_m\"") &&
                                             Contains("there is no column \"speed_m_per_s\""));
+  CHECK_THAT(problem_of("design,gate,speed_km_h\n,1,85\n"),
+             Contains("speeds.csv:2: there is no design in the column design"));
   CHECK_THAT(problem_of("gate,speed_km_h\n1,fast\n", "hills/garmisch_hs142.yaml"), Contains("is no number"));
   const std::string hill = "hills/garmisch_hs142.yaml";
   for (const char* const nothing :

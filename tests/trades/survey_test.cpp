@@ -265,6 +265,11 @@ TEST_CASE("a survey in site coordinates is turned into the plane of a track that
   }
   put_bytes(folder / "bad.csv", "x,y\n1,2\n");
   CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement), Contains("there is no column \"z\""));
+  put_bytes(folder / "bad.csv", "x,Y,z\n1,5,2\n");
+  CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement),
+                    Contains("bad.csv:1: nobody reads a column \"Y\""));
+  put_bytes(folder / "own.csv", "x,s,z,n\n1,5,2,3\n");
+  CHECK(read_survey(folder / "own.csv", track.placement).front().aside == 0.0);
   put_bytes(folder / "bad.csv", "x,z\n1,5,2,5\n");
   CHECK_THROWS_WITH(
       read_survey(folder / "bad.csv", track.placement),

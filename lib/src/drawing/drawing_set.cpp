@@ -102,12 +102,14 @@ SheetTable setting_out_table(const Workshop& workshop) {
   SheetTable table;
   table.caption =
       "Setting out: x and z from the start, X Y Z of the site, ordinates above the chord of the piece";
+  if (!workshop.offset_names.empty())
+    table.caption += "; levels z plumb below the place, - where the line ends short";
   table.widths_mm = {64.0, 20.0, 20.0, 20.0, 24.0, 24.0, 24.0, 19.0, 23.0, 18.0};
   table.header = {"what", "s mm", "run mm",    "z mm",      "X mm",
                   "Y mm", "Z mm", "slope deg", "radius mm", "ordinate"};
   for (std::size_t i = 0; i < workshop.offset_names.size() && i < 4; ++i) {
-    table.widths_mm.push_back(30.0);
-    table.header.push_back(workshop.offset_names[i]);
+    table.widths_mm.push_back(36.0);
+    table.header.push_back(workshop.offset_names[i] + ", plumb");
   }
   for (const SettingOutPoint& point : workshop.setting_out) {
     std::vector<std::string> row{point.what,           tabled(point.arc_length),
@@ -115,7 +117,8 @@ SheetTable setting_out_table(const Workshop& workshop) {
                                  tabled(point.site.x), tabled(point.site.y),
                                  tabled(point.site.z), fixed(point.slope_angle.degrees(), 3),
                                  tabled(point.radius), tabled(point.ordinate)};
-    for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i) row.push_back(tabled(point.offsets[i]));
+    for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i)
+      row.push_back(point.offsets[i] ? tabled(*point.offsets[i]) : "-");
     table.rows.push_back(std::move(row));
   }
   return table;

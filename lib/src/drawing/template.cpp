@@ -15,6 +15,7 @@ namespace {
 constexpr double kUnprinted = 8.0;
 constexpr double kScaleBar = 100.0;
 constexpr double kFoot = 14.0;           // room for the words below the picture
+constexpr double kBarRoom = 4.0;         // left of the picture, for the upright bar with its marks
 constexpr double kKey = 7.0;             // height of the key to the tiles
 constexpr double kLongestPage = 5000.0;  // PDF pages have 14 400 pt at most, 5080 mm
 
@@ -220,7 +221,7 @@ PaperPlan plan_paper(const Drawing& drawing, const PlaneBox& box, PaperSize size
   PaperPlan best;
   for (const bool landscape : {true, false}) {
     const Sheet blank = blank_sheet(size, landscape);
-    const PlaneBox frame{{kUnprinted, kUnprinted + kFoot},
+    const PlaneBox frame{{kUnprinted + kBarRoom, kUnprinted + kFoot},
                          {blank.width_mm - kUnprinted, blank.height_mm - kUnprinted}};
     TilePlan tiles = plan_tiles(drawing, box, {frame.width(), frame.height()}, overlap);
     if (best.tiles.kept.empty() || tiles.kept.size() < best.tiles.kept.size())
@@ -252,8 +253,8 @@ std::vector<Sheet> roll_template(const Drawing& drawing, const TitleBlock& title
   const auto box = bounds(drawing);
   if (!box) return {};
   const TilePlan plan = plan_roll(drawing, *box, overlap_mm);
-  const Vec2 foot{kRollEdge, kRollEdge};
-  const Vec2 low = foot + Vec2{0.0, kRollFoot};
+  const Vec2 low{kRollEdge, kRollEdge + kRollFoot};
+  const Vec2 foot{kRollEdge - kBarRoom, kRollEdge};
   const Vec2 paper{std::max(plan.window.x, kScaleBar + 20.0) + 2.0 * kRollEdge,
                    std::max(plan.window.y, kScaleBar) + 2.0 * kRollEdge + kRollFoot};
   return sheets_of(plan, drawing, title, paper, {low, low + plan.window}, foot);

@@ -1,6 +1,7 @@
 #include "glissade/io/csv_columns.hpp"
 
 #include "glissade/core/error.hpp"
+#include "glissade/core/nearest_word.hpp"
 #include "glissade/core/odd_characters.hpp"
 #include "glissade/core/words.hpp"
 
@@ -8,6 +9,7 @@
 #include "io/reading.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -16,6 +18,15 @@
 namespace glissade {
 
 using namespace io;
+
+namespace {
+
+bool same_but_for_case(std::string_view one, std::string_view other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+}
+
+}  // namespace
 
 CsvColumns CsvColumns::read(const std::filesystem::path& file, std::string_view what) {
   const std::string text = read_csv_text(file, what, kLargestCsvFile);
@@ -59,6 +70,25 @@ void CsvColumns::require(const std::vector<Required>& columns) const {
          "The first line names the columns; here they are " + listed(names_) + ".", std::string(one.hint)});
   }
   if (!missing.empty()) throw FileError(std::move(missing));
+}
+
+void CsvColumns::require_spelt(const std::vector<std::string_view>& known) const {
+  std::vector<std::string_view> absent;
+  for (const std::string_view one : known) {
+    if (!has(one)) absent.push_back(one);
+  }
+  std::vector<Issue> issues;
+  for (const std::string& name : names_) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string meant(nearest_word(name, absent));
+    // Any letter is one from any other: of these only the case is a slip.
+    constexpr std::size_t kWord = 3;  // taste: letters
+    if (meant.empty() || (name.size() < kWord && !same_but_for_case(name, meant))) continue;
+    issues.push_back(
+        {file_.string() + ":" + std::to_string(header_line_), "nobody reads a column " + in_quotes(name),
+         "There is a column " + in_quotes(meant) + ".", meant + ", or a name that is less like it"});
+  }
+  if (!issues.empty()) throw FileError(std::move(issues));
 }
 
 std::string CsvColumns::text(std::size_t row, std::string_view column) const {

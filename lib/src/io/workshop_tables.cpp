@@ -13,6 +13,7 @@
 #include <initializer_list>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -65,6 +66,12 @@ double clean(double value) {
 
 double mm(double metres) {
   return clean(core::kMillimetres * metres);
+}
+
+/// @return "underside_of_deck_plumb_mm"
+std::string level_column(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name + "_plumb_mm";
 }
 
 double degrees(Angle angle) {
@@ -194,13 +201,14 @@ std::string setting_out_csv(const Workshop& workshop) {
   std::string header =
       "what,arc_length_mm,run_mm,z_mm,site_x_m,site_y_m,site_z_m,slope_deg,slope_percent,radius_mm,ordinate_"
       "mm";
-  for (const std::string& name : workshop.offset_names) header += "," + quoted(name);
+  for (const std::string& name : workshop.offset_names) header += "," + quoted(level_column(name));
   Csv csv(header);
   for (const SettingOutPoint& point : workshop.setting_out) {
     csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << clean(point.site.x)
               << clean(point.site.y) << clean(point.site.z) << degrees(point.slope_angle)
               << percent(point.slope_angle) << mm(point.radius) << mm(point.ordinate);
-    for (const double offset : point.offsets) csv << mm(offset);
+    for (const std::optional<double>& level : point.offsets)
+      csv << (level ? exact_text(mm(*level) + 0.0) : "");
   }
   return csv.text();
 }

@@ -37,6 +37,7 @@ std::vector<SurveyPoint> read_survey(const std::filesystem::path& file, const Pl
   const CsvColumns columns = CsvColumns::read(file, "the survey");
   constexpr std::string_view kAxes = "x,z or name,x,y,z, in metres";
   columns.require({{"x", kAxes}, {"z", kAxes}});
+  columns.require_spelt({"name", "x", "y", "z"});
   if (!columns.has("y")) require_run_from_x(file, placement.azimuth());
   const double azimuth = placement.azimuth().radians();
   const Vec3 start = placement.start();

@@ -32,6 +32,10 @@ class CsvColumns {
   };
   /// @throws FileError if any of them is not there (names all of these, and those that there are)
   void require(const std::vector<Required>& columns) const;
+  /// Columns that may be left out and are misspelt would be passed over.
+  /// @param known  all columns that are read
+  /// @throws FileError if a column is none of them and named nearly as one that is not there: `before_egde_m`, `Y`
+  void require_spelt(const std::vector<std::string_view>& known) const;
   /// @return the text of a cell; empty where the row is too short or there is no such column
   [[nodiscard]] std::string text(std::size_t row, std::string_view column) const;
   /// @return the finite number in a cell

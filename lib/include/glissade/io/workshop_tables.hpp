@@ -28,8 +28,8 @@ namespace glissade {
 /// Columns: part, hit, distance_mm, length_mm, angle_deg, sum_deg, radius_mm, chord_error_mm.
 [[nodiscard]] std::string bend_schedule_csv(const Workshop& workshop);
 
-/// Columns: what, arc_length_mm, x_mm, z_mm, site_x_m, site_y_m, site_z_m, slope_deg, slope_percent, radius_mm, ordinate_mm,
-/// then the offsets by their names, in millimetres.
+/// Columns: what, arc_length_mm, run_mm, z_mm, site_x_m, site_y_m, site_z_m, slope_deg, slope_percent, radius_mm, ordinate_mm,
+/// then the heights z of the lines below, plumb below the place: underside_of_deck_plumb_mm; empty where such a line ends short of it.
 [[nodiscard]] std::string setting_out_csv(const Workshop& workshop);
 
 /// Columns: rule, verdict, value, bound, where, source.

@@ -240,15 +240,16 @@ struct BendStep {
 
 /// A place on the track that is measured on site.
 struct SettingOutPoint {
-  std::string what;             ///< "station", "joint 2", "support 3"
-  double arc_length = 0.0;      ///< s [m]
-  double x = 0.0;               ///< horizontal distance from the start [m]
-  double z = 0.0;               ///< height above the start [m]
-  Vec3 site;                    ///< in the frame of the site [m]
-  Angle slope_angle;            ///< positive downhill
-  double radius = 0.0;          ///< positive in a valley, infinity where straight [m]
-  double ordinate = 0.0;        ///< distance above the chord of its segment [m]
-  std::vector<double> offsets;  ///< heights z of the lines that the table follows below the track [m]
+  std::string what;         ///< "station", "joint 2", "support 3"
+  double arc_length = 0.0;  ///< s [m]
+  double x = 0.0;           ///< horizontal distance from the start [m]
+  double z = 0.0;           ///< height above the start [m]
+  Vec3 site;                ///< in the frame of the site [m]
+  Angle slope_angle;        ///< positive downhill
+  double radius = 0.0;      ///< positive in a valley, infinity where straight [m]
+  double ordinate = 0.0;    ///< distance above the chord of its segment [m]
+  /// Heights z of the lines that the table follows, plumb below the place; none where such a line ends short of it [m].
+  std::vector<std::optional<double>> offsets;
 };
 
 /// A value at one place of the parts that rules of the shop may bound (`trades/rules.hpp`).
@@ -290,7 +291,7 @@ struct Workshop {
   std::vector<BoughtInItem> items;
   std::vector<BendStep> bends;
   std::vector<SettingOutPoint> setting_out;
-  std::vector<std::string> offset_names;  ///< of SettingOutPoint::offsets
+  std::vector<std::string> offset_names;  ///< of SettingOutPoint::offsets: "underside of deck"
   std::vector<ShopMeasurement> measured;  ///< what rules of the shop may bound
   std::vector<ShopCheck> checks;          ///< what they say of it: judge_shop() of pipeline/shop_rules.hpp
   std::vector<std::string> notes;         ///< in words, for a drawing: fits, kerf, trims

@@ -193,9 +193,9 @@ void add_stands(const PrintJob& job, const std::vector<Stand>& stands, WorkshopB
       const std::string which = blocks.size() == 1 ? name : name + "_" + std::to_string(k + 1);
       add_block(job, stands[i], blocks[k], which, build);
     }
-    build.workshop.setting_out.push_back(setting_out_point(job.track, segment_at(build.joints, stands[i].at),
-                                                           job.placement, "stand " + std::to_string(i + 1),
-                                                           stands[i].at));
+    build.workshop.setting_out.push_back(
+        setting_out_point(job.track, build.joints, job.placement,
+                          {"stand " + std::to_string(i + 1), stands[i].x, stands[i].ground, stands[i].at}));
   }
   add_stand_pins(job, stands, build);
   in_order(build.workshop.setting_out);

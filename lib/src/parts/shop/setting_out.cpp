@@ -1,6 +1,10 @@
 #include "parts/shop/setting_out.hpp"
 
+#include "glissade/core/number_text.hpp"
 #include "glissade/core/vec.hpp"
+
+#include "core/millimetres.hpp"
+#include "parts/curves/plumb.hpp"
 
 #include <algorithm>
 #include <array>
@@ -44,6 +48,15 @@ SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord_span
   row.radius = at.curvature == 0.0 ? std::numeric_limits<double>::infinity() : 1.0 / at.curvature;
   row.ordinate = cross(chord, away) / norm(chord);
   return row;
+}
+
+SettingOutPoint setting_out_point(const ArcSpline& track, const std::vector<double>& joints,
+                                  const Placement& placement, const StandingBelow& standing) {
+  const auto in_mm = [](double metres) { return rounded_text(core::kMillimetres * metres, 6); };
+  const double s = place_at_run(track, standing.x, standing.at).value_or(standing.at);
+  return setting_out_point(
+      track, segment_at(joints, s), placement,
+      standing.what + ": middle x " + in_mm(standing.x) + ", foot z " + in_mm(standing.foot), s);
 }
 
 void in_order(std::vector<SettingOutPoint>& rows) {

@@ -197,13 +197,6 @@ void require_room_for_legs(const Trestle& trestle, const SupportOptions& support
        "a lower ground, or a ground line that is lower there"});
 }
 
-/// The unit that a place lies in, of two that meet there the one that begins.
-Span unit_at(const Shell& shell, double s) {
-  const auto next = std::upper_bound(shell.units.begin() + 1, shell.units.end(), s,
-                                     [](double at, const Span& unit) { return at < unit.from; });
-  return *(next - 1);
-}
-
 /// The least slope angle, which an arc has at one of its ends [rad].
 double flattest_of(const ArcSpline& track) {
   double least = track.slope_angle(track.length());
@@ -251,6 +244,8 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
   for (const Standing& one : all) feet.push_back({one.trestle.x, frame_of(shell, one.place.at).at.x});
   require_on_ground(supports.ground, feet, "supports.ground", "a trestle");
   for (const Standing& one : all) require_room_for_legs(one.trestle, supports);
+  std::vector<double> joints = {shell.units.front().from};
+  for (const Span& unit : shell.units) joints.push_back(unit.to);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Standing& one = all[i];
     const Measures measures = measures_of(shell, one.saddles);
@@ -259,8 +254,9 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
     add_legs(shell, one.trestle, measures, text);
     add_braces(shell, one.trestle, measures, text);
     shell.taken.add(one.place.at - one.clear, one.place.at + one.clear);
-    rows.push_back(setting_out_point(shell.track, unit_at(shell, one.place.at), shell.placement,
-                                     "support " + text, one.place.at));
+    rows.push_back(setting_out_point(
+        shell.track, joints, shell.placement,
+        {"support " + text, one.trestle.x, one.trestle.ground + supports.grout, one.place.at}));
   }
   note_wide_spans(all, shell);
   if (!all.empty()) return;

@@ -5,9 +5,11 @@
 #include "glissade/core/number_text.hpp"
 
 #include "core/least_rectangle.hpp"
+#include "core/millimetres.hpp"
 #include "parts/bodies/as_built.hpp"
 #include "parts/bodies/body_moments.hpp"
 #include "parts/bodies/clash.hpp"
+#include "parts/curves/plumb.hpp"
 #include "parts/plates/calm_joints.hpp"
 #include "parts/plates/plate_joints.hpp"
 #include "parts/plates/plate_unit.hpp"
@@ -332,21 +334,24 @@ void note_long_lumber(const TimberJob& job, Workshop& workshop) {
                            " of split.longest, to be spliced: " + listed + ".");
 }
 
-/// Heights of the lines that are set out below the floor.
+/// Heights of the lines that are set out below the floor, plumb below it, and where they end: square to the track, where no
+/// plumb line from its own ends meets them.
 void add_offsets(const TimberJob& job, Workshop& workshop) {
   const bool ribs = job.options.frame == TimberFrame::ribs;
   const std::string bearers = ribs ? "ribs" : "beams";
   workshop.offset_names = {"underside of deck", "top of " + bearers, "underside of " + bearers};
-  for (SettingOutPoint& point : workshop.setting_out) {
-    for (const double height : {-job.channel.thickness, job.bearer_top(), job.bearer_bottom()}) {
-      const TrackFrame at = frame_at(job.track, point.arc_length);
-      point.offsets.push_back(point.z + height * at.up.y);
-    }
+  const std::array<double, 3> heights = {-job.channel.thickness, job.bearer_top(), job.bearer_bottom()};
+  const auto in_mm = [](double metres) { return rounded_text(core::kMillimetres * metres, 6); };
+  const auto place = [&](Vec2 at) { return in_mm(at.x) + " and " + in_mm(at.y); };
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const auto line = offset_line(job.track, {0.0, job.track.length()}, heights[i]);
+    for (SettingOutPoint& point : workshop.setting_out)
+      point.offsets.push_back(line ? level_below(*line, {point.x, point.z}) : std::nullopt);
+    if (!line) continue;
+    workshop.notes.push_back("Ends of the " + workshop.offset_names[i] +
+                             ", run and z in mm: " + place(line->vertices.front().at) + " at the start, " +
+                             place(line->vertices.back().at) + " at the finish.");
   }
-}
-
-std::string in_mm(double metres) {
-  return rounded_text(metres * 1e3, 6);
 }
 
 /// Joints of every other bearer, and legs: beside what every track has in its table.
@@ -361,14 +366,13 @@ void set_out_frame(const TimberJob& job, const BearerPlan& bearers, const std::v
       add_row(bearers.shifted, "shifted joint " + std::to_string(i), bearers.shifted[i]);
   }
   for (std::size_t i = 0; i < legs.size(); ++i)
-    add_row(bearers.joints,
-            "leg " + std::to_string(i + 1) + ": middle x " + in_mm(legs[i].x) + ", foot z " +
-                in_mm(legs[i].ground),
-            legs[i].at);
+    workshop.setting_out.push_back(
+        setting_out_point(job.track, bearers.joints, job.placement,
+                          {"leg " + std::to_string(i + 1), legs[i].x, legs[i].ground, legs[i].at}));
   in_order(workshop.setting_out);
   std::string middles;
   for (const double middle : bearers.across)
-    middles += (middles.empty() ? "" : ", ") + rounded_text(middle * 1e3, 6);
+    middles += (middles.empty() ? "" : ", ") + rounded_text(core::kMillimetres * middle, 6);
   const char* const name = job.options.frame == TimberFrame::ribs ? "ribs" : "beams";
   workshop.notes.push_back("Middles of " + std::string(name) + " to the left of the axis, in mm: " + middles +
                            ".");

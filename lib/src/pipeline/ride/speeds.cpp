@@ -36,6 +36,8 @@ class Reader {
     if (!by_gate_) required.push_back({"length_m", kExample});
     if (!in_kilometres_) required.push_back({"speed_m_per_s", kExample});
     columns_.require(required);
+    columns_.require_spelt({"design", "before_edge_m", "count", by_gate_ ? "gate" : "length_m",
+                            in_kilometres_ ? "speed_km_h" : "speed_m_per_s"});
     require_either("gate", "length_m");
     require_either("speed_km_h", "speed_m_per_s");
   }
@@ -69,6 +71,10 @@ class Reader {
 
   [[nodiscard]] const Hill& hill_of(std::size_t row) {
     const std::string name = columns_.text(row, "design");
+    if (name.empty() && !design_) {
+      throw InputError({columns_.place(row), "there is no design in the column design", "",
+                        "a design file there, or the option that names one for all rows"});
+    }
     const std::filesystem::path path = name.empty() && design_ ? *design_ : folder_ / name;
     const auto known = hills_.find(path.string());
     if (known != hills_.end()) return known->second;

@@ -288,14 +288,17 @@ CommonResistance common_resistance(const std::vector<SpeedReading>& readings) {
   const auto common = [&](const auto& value_of) {
     std::optional<double> value;
     for (const SpeedReading& reading : readings) {
-      const double own = value_of(reading.body);
-      if (value && *value != own) return std::optional<double>();
+      const std::optional<double> own = value_of(reading.body);
+      if (!own || (value && *value != *own)) return std::optional<double>();
       value = own;
     }
     return value;
   };
-  return {common([](const Body& body) { return body.friction.coefficient(); }),
-          common([](const Body& body) { return body.drag_per_metre; })};
+  return {common([](const Body& body) {
+            const bool one = body.friction_changes.empty();
+            return one ? std::optional<double>(body.friction.coefficient()) : std::nullopt;
+          }),
+          common([](const Body& body) { return std::optional<double>(body.drag_per_metre); })};
 }
 
 double rms_of(const std::vector<SpeedResidual>& residuals) {

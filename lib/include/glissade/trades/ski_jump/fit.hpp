@@ -69,7 +69,7 @@ struct SpeedFitOptions {
 /// The same with one friction coefficient and one drag [1/m] for all of them.
 [[nodiscard]] std::vector<SpeedResidual> speed_residuals(const std::vector<SpeedReading>& readings,
                                                          double friction, double drag);
-/// Friction and drag that the designs of all readings have; none where they differ.
+/// Friction and drag that the designs of all readings have; none where they differ, no friction where it changes along a track.
 struct CommonResistance {
   std::optional<double> friction;  ///< coefficient
   std::optional<double> drag;      ///< [1/m]
