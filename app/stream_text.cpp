@@ -44,13 +44,15 @@ std::string range_ride_text(const Motion& motion) {
 }
 
 std::string wear_lines(const Design& design, const Track& track) {
-  const WearFacts wear = wear_at_frictions(track);
-  const std::vector<LevelRide> rides = track.rides();
-  std::string text =
-      "floor " + quantity_text(wear.floor.value, Dimension::power_per_area) + " at most, " +
-      length_text(wear.floor.arc_length) + " down the track" +
-      (rides.size() > 1 ? ", at " + std::string(to_text(rides[wear.ride].level)) + " friction" : "") +
-      "; side walls " + quantity_text(wear.wall.value, Dimension::power_per_area);
+  const WearAtFrictions at_frictions = wear_at_frictions(track);
+  const WearFacts& wear = at_frictions.facts;
+  const auto friction_text = [&](FrictionLevel level) {
+    return track.range.empty() ? std::string() : ", at " + std::string(to_text(level)) + " friction";
+  };
+  std::string text = "floor " + quantity_text(wear.floor.value, Dimension::power_per_area) + " at most, " +
+                     length_text(wear.floor.arc_length) + " down the track" +
+                     friction_text(at_frictions.level) + "; side walls " +
+                     quantity_text(wear.wall.value, Dimension::power_per_area);
   std::string plates;
   for (const WearStretch& plate : wear.plates)
     plates += (plates.empty() ? "" : ", ") + length_text(plate.from, 3) + " to " + length_text(plate.to, 3);
@@ -59,9 +61,7 @@ std::string wear_lines(const Design& design, const Track& track) {
     text += "\nliner " + length_text(loss->per_1000_h, 3) + " thinner after 1000 h, " +
             length_text(loss->per_megatonne, 3) + " after a million tonnes; through after " +
             rounded_text(loss->life_hours, 3) + " h, first " + length_text(wear.pressed.arc_length, 3) +
-            " down the track" +
-            (rides.size() > 1 ? ", at " + std::string(to_text(rides[wear.pressed_ride].level)) + " friction"
-                              : "");
+            " down the track" + friction_text(at_frictions.pressed_level);
   }
   return labelled("Wear", text);
 }

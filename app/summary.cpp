@@ -101,7 +101,7 @@ std::string comparison_lines(const Design& design, const Track& track) {
     }
     const double worn = fastest_within->floor_wear.value_or(0.0);
     if (worn > 0.0 && design.objective.kind == ObjectiveKind::least_peak_wear) {
-      const double peak = wear_at_frictions(track).floor.value;
+      const double peak = wear_at_frictions(track).facts.floor.value;
       line += ",\nand its floor wears " + rounded_text(100.0 * (1.0 - peak / worn), 3) +
               " % less where it wears most";
     }

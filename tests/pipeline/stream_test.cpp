@@ -218,7 +218,7 @@ TEST_CASE(
       "d.yaml");
   const Track track = solve(design);
   CHECK(stream_state(track.motion, track.motion.distance()).floor_wear == Approx(153.6).epsilon(4e-4));
-  const WearFacts wear = wear_at_frictions(track);
+  const WearFacts wear = wear_at_frictions(track).facts;
   CHECK(wear.floor.arc_length == Approx(track.motion.highest_load().arc_length).margin(1e-6));
   CHECK(wear.wall.value == Approx(wear.floor.value * 0.5 / (2.0 * 0.6)).epsilon(1e-9));
   CHECK(wear.mean_floor < wear.floor.value);
@@ -316,6 +316,58 @@ TEST_CASE("a stream too small to be as deep as its wall at 1 mm/s chokes all the
   CHECK(facts.choke->depth == Approx(0.743).epsilon(1e-12));
   CHECK(facts.filling.value == 1.0);
   CHECK(json::parse(track_json(design, track))["status"] == "choked");
+}
+
+TEST_CASE("a limit on wear holds all over a range, where mu N is greatest between its ends, too") {
+  const auto wear_at = [](const Design& design, const Track& track, double degrees) {
+    const Track ridden =
+        ride_at(design, track.centerline, Friction::from_angle(Angle::from_degrees(degrees)));
+    return stream_peak(ridden.motion, &StreamState::floor_wear).value;
+  };
+  constexpr const char* kRest =
+      "stream: {mass_flow: 100 t/h, bulk_density: 1600 kg/m^3}\n"
+      "cross_section: {kind: u-channel, width: 400 mm, wall_height: 250 mm, thickness: 4 mm}\n";
+  // Held against the ends and the nominal friction alone it was "1128 W/m^2, kept", and 1397 W/m^2 at 35 deg.
+  const Design drawn = parse_design(
+      std::string("glissade: 1\ntrack: {start: {x: 0 m, z: 5 m}}\n"
+                  "body: {friction_angle: {low: 8 deg, nominal: 20 deg, high: 44 deg}, entry_speed: 3 m/s}\n"
+                  "centerline: {kind: segments, entry_slope_angle: 48 deg, "
+                  "segments: [{length: 6 m}, {radius: 1 m, to_slope_angle: 20 deg}]}\n"
+                  "limits: {highest_floor_wear: 1200 W/m^2}\n") +
+          kRest,
+      "d.yaml");
+  const Track bend = solve(drawn);
+  const json told = json::parse(track_json(drawn, bend));
+  const auto found_row = std::find_if(told["limits"].begin(), told["limits"].end(),
+                                      [](const json& one) { return one["limit"] == "highest_floor_wear"; });
+  REQUIRE(found_row != told["limits"].end());
+  const json& row = *found_row;
+  CHECK(row["friction"] == "in-between");
+  CHECK_FALSE(row["kept"].get<bool>());
+  double most = 0.0;
+  for (double degrees = 8.0; degrees <= 44.0; degrees += 0.25)
+    most = std::max(most, wear_at(drawn, bend, degrees));
+  CHECK(row["reached"].get<double>() >= most * (1.0 - 1e-9));
+  CHECK(row["reached"].get<double>() <= most * (1.0 + 1e-3));
+  CHECK(told["wear"]["highest_floor_wear_w_per_m2"].get<double>() ==
+        Approx(row["reached"].get<double>()).epsilon(1e-6));
+  CHECK(told["wear"]["friction"] == "in-between");
+  // What is searched for keeps it all over the range, and leaves nothing of it: "optimal" at 900 W/m^2 had 995 at 29 deg.
+  const Design searched = parse_design(
+      std::string("glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}, finish: {x: 4.6 m, z: -4.9 m}}\n"
+                  "body: {friction_angle: {low: 8 deg, nominal: 20 deg, high: 42 deg}, entry_speed: 3 m/s}\n"
+                  "limits: {highest_floor_wear: 900 W/m^2, entry_slope_angle: {highest: 60 deg}, "
+                  "exit_slope_angle: 25 deg, smallest_radius: 1 m}\n") +
+          kRest,
+      "f.yaml");
+  const Track found = solve(searched);
+  REQUIRE(found.search);
+  CHECK(found.search->status == OptimizeStatus::optimal);
+  double peak = 0.0;
+  for (double degrees = 8.0; degrees <= 42.0; degrees += 0.5)
+    peak = std::max(peak, wear_at(searched, found, degrees));
+  CHECK(peak <= 900.0 * (1.0 + 1e-4));
+  CHECK(peak > 0.999 * 900.0);
 }
 
 TEST_CASE("wear is told where a bend ends: upstream of a drop of the curvature") {

@@ -276,8 +276,7 @@ Optimum searched_by_objective(const Problem& problem, const OptimizeOptions& opt
 
 /// A friction inside the range at which the track found wears more than at those that were searched with, and as much as matters.
 std::optional<Friction> wearing_more(const Problem& problem, const Optimum& optimum) {
-  constexpr double kApart =
-      1e-3;  // taste: a peak is flat, and next to a friction that is known hardly higher
+  constexpr double kApart = 1e-3;  // taste: next to a friction that is known a flat peak is hardly higher
   // What keeps a friction that no row of a program knows falls short of the bound.
   constexpr double kNear = 0.8;  // taste: of a bound that may bind
   const bool is_least = problem.objective.kind == ObjectiveKind::least_peak_wear;

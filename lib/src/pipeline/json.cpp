@@ -132,20 +132,20 @@ Json fastest_within_json(const Track& track) {
 }
 
 Json wear_json(const Design& design, const Track& track) {
-  const std::vector<LevelRide> rides = track.rides();
-  const WearFacts facts = wear_at_frictions(track);
+  const WearAtFrictions wear = wear_at_frictions(track);
+  const WearFacts& facts = wear.facts;
   Json plates = Json::array();
   for (const WearStretch& plate : facts.plates)
     plates.push_back({{"from_m", plate.from}, {"to_m", plate.to}});
   Json json = {{"highest_floor_wear_w_per_m2", facts.floor.value},
                {"highest_floor_wear_at_m", facts.floor.arc_length},
-               {"friction", to_text(rides[facts.ride].level)},
+               {"friction", to_text(wear.level)},
                {"mean_floor_wear_w_per_m2", facts.mean_floor},
                {"highest_wall_wear_w_per_m2", facts.wall.value},
                {"highest_wall_wear_at_m", facts.wall.arc_length},
                {"wear_plates", std::move(plates)}};
   json["loss_at_m"] = facts.pressed.arc_length;
-  json["loss_friction"] = to_text(rides[facts.pressed_ride].level);
+  json["loss_friction"] = to_text(wear.pressed_level);
   const auto loss = liner_loss(design, facts);
   json["loss_mm_per_1000_h"] = loss ? Json(loss->per_1000_h * 1e3) : Json(nullptr);
   json["loss_mm_per_mt"] = loss ? Json(loss->per_megatonne * 1e3) : Json(nullptr);

@@ -143,6 +143,8 @@ double highest_floor_wear(const Design& design, const CenterlinePtr& centerline)
   const std::vector<RangeRide> range = rides_of_range(design, centerline);
   std::vector<const Motion*> motions{&nominal};
   for (const RangeRide& ride : range) motions.push_back(&ride.motion);
+  const std::optional<Motion> between = most_wearing_ride(centerline, nominal, range);
+  if (between) motions.push_back(&*between);
   return wear_of(motions).floor.value;
 }
 

@@ -60,10 +60,17 @@ namespace glissade {
 /// @param motion  of a stream, arrived
 [[nodiscard]] BeltLanding belt_landing(const Design& design, const Motion& motion);
 
-/// Where the stream of a track wears its chute, over every friction of the design at which it gets onto its track (enters()).
+/// Where the stream of a track wears its chute, and at which frictions of the design.
+struct WearAtFrictions {
+  WearFacts facts;
+  FrictionLevel level = FrictionLevel::nominal;          ///< at which the floor wears most
+  FrictionLevel pressed_level = FrictionLevel::nominal;  ///< at which a liner gets thinner fastest
+};
+/// Over every friction of the range at which it gets onto its track (enters()): the ends, the nominal one, and where the floor
+/// wears more at one between them (friction_of_most_wear()) that, too.
 /// @param track  of a design with a stream
-/// @return rides counted as in Track::rides(); nothing worn where none enters
-[[nodiscard]] WearFacts wear_at_frictions(const Track& track);
+/// @return rides counted in no order; nothing worn where none enters
+[[nodiscard]] WearAtFrictions wear_at_frictions(const Track& track);
 
 /// How fast a liner gets thinner where it wears most.
 struct LinerLoss {

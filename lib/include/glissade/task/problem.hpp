@@ -29,7 +29,7 @@ struct Problem {
   /// Within the range; limits hold there, too, as far as a search looks. A wear of the floor need be greatest at none of those
   /// above: optimize() adds what it meets.
   std::vector<Friction> further_frictions;
-  double gravity = kDefaultGravity;            ///< [m/s^2]; > 0
+  double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
   Limits limits;
   Objective objective;
 };

@@ -42,15 +42,28 @@ std::optional<Friction> friction_of_most_wear(const CenterlinePtr& centerline, c
   std::array<double, 12> peaks{};
   const double step = 1.0 / static_cast<double>(peaks.size() - 1);
   for (std::size_t i = 0; i < peaks.size(); ++i) peaks[i] = peak(static_cast<double>(i) * step);
-  const auto best = static_cast<double>(std::max_element(peaks.begin(), peaks.end()) - peaks.begin()) * step;
-  constexpr int kBits = 17;  // accuracy: 1e-5 of the range
-  std::uintmax_t most = 30;
-  const auto [share, negative] =
-      boost::math::tools::brent_find_minima([&](double at) { return -peak(at); }, std::max(0.0, best - step),
-                                            std::min(1.0, best + step), kBits, most);
+  const double best = *std::max_element(peaks.begin(), peaks.end());
+  double most = 0.0;
+  double at_share = 0.0;
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    // A track that was searched for within such a limit is worn about alike at many frictions: every peak that may be the highest.
+    constexpr double kNear = 0.98;  // taste: of the highest
+    const bool is_peak = (i == 0 || peaks[i] >= peaks[i - 1]) &&
+                         (i + 1 == peaks.size() || peaks[i] >= peaks[i + 1]) && peaks[i] >= kNear * best;
+    if (!is_peak) continue;
+    const double share = static_cast<double>(i) * step;
+    constexpr int kBits = 17;  // accuracy: 1e-5 of the range
+    std::uintmax_t rounds = 30;
+    const auto [found, negative] = boost::math::tools::brent_find_minima(
+        [&](double at) { return -peak(at); }, std::max(0.0, share - step), std::min(1.0, share + step), kBits,
+        rounds);
+    if (-negative <= most) continue;
+    most = -negative;
+    at_share = found;
+  }
   constexpr double kMore = 1e-9;  // accuracy: that of a peak
-  if (!(-negative > (1.0 + kMore) * std::max(peaks.front(), peaks.back()))) return {};
-  return friction_at(share);
+  if (!(most > (1.0 + kMore) * std::max(peaks.front(), peaks.back()))) return {};
+  return friction_at(at_share);
 }
 
 }  // namespace glissade

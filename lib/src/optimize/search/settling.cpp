@@ -103,7 +103,9 @@ Found Settling::halved(Found found, Ahead& ahead) {
   // Along a highest load halving wins six to forty times what one program promises.
   constexpr double kLeftLoaded = 3e-8;  // measured: what is promised where two rounds more win less than 1e-6
   const double left_at_most = smooth ? 1e-8 : lies_at_highest_load(problem_, found) ? kLeftLoaded : 1e-6;
-  constexpr double kLostAtMost = 5e-7;      // accuracy: half that of a time
+  constexpr double kLostAtMost = 5e-7;  // accuracy: half that of a time
+  // Where curvature may jump, what mending takes for less is no worse than on a finer mesh.
+  constexpr double kLostAmongJumps = 1e-3;  // taste
   constexpr std::size_t kMostPieces = 120;  // budget
   constexpr double kKept = 0.1;             // taste
   constexpr int kMostIdle = 1;     // budget: halves that win nothing by themselves may let the next ones
@@ -116,8 +118,9 @@ Found Settling::halved(Found found, Ahead& ahead) {
     const Remainder left = remainder_of(problem_, found, control_);
     ahead.finer_mesh_wins = left.objective / std::fabs(found.objective);
     ahead.multipliers = left.by_limit;
-    // What a curvature of few pieces breaks between its stations is followed by finer ones where nothing jumps.
-    const bool breaks = smooth && left.lost > kLostAtMost * std::fabs(found.objective);
+    // What a curvature of few pieces breaks between its stations is followed by finer ones.
+    const double lost_at_most = smooth ? kLostAtMost : kLostAmongJumps;
+    const bool breaks = left.lost > lost_at_most * std::fabs(found.objective);
     if (!breaks && left.objective <= left_at_most * std::fabs(found.objective)) break;
     // A finer mesh never has so much left: where a program promises it, its step leads away from the track.
     constexpr double kMost = 0.01;  // taste: twice what any promised that kept part of it

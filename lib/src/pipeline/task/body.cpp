@@ -5,6 +5,7 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/design/stream_channel.hpp"
 #include "glissade/motion/laws/bulk_stream.hpp"
+#include "glissade/motion/laws/most_wear.hpp"
 #include "glissade/motion/laws/rider.hpp"
 #include "glissade/motion/laws/rolling_ball.hpp"
 #include "glissade/pipeline/solve.hpp"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace glissade {
@@ -89,26 +91,43 @@ std::optional<Impact> impact_of(const Motion& motion) {
                    density_of(motion));
 }
 
-WearFacts wear_at_frictions(const Track& track) {
-  std::vector<const Motion*> motions;
-  std::vector<std::size_t> places;
-  const std::vector<LevelRide> rides = track.rides();
-  for (std::size_t i = 0; i < rides.size(); ++i) {
-    // What flies over the start, or stands there, rubs nothing.
-    if (!enters(*rides[i].motion)) continue;
-    motions.push_back(rides[i].motion);
-    places.push_back(i);
+std::optional<Motion> pipeline::most_wearing_ride(const CenterlinePtr& centerline, const Motion& nominal,
+                                                  const std::vector<RangeRide>& range) {
+  if (range.empty()) return {};
+  Body body = nominal.body();
+  Friction low = body.friction;
+  Friction high = low;
+  for (const RangeRide& ride : range) {
+    low = std::min(low, ride.motion.body().friction);
+    high = std::max(high, ride.motion.body().friction);
   }
-  if (motions.empty()) return {};
-  WearFacts facts = wear_of(motions);
-  facts.ride = places[facts.ride];
-  facts.pressed_ride = places[facts.pressed_ride];
-  return facts;
+  const auto friction = friction_of_most_wear(centerline, body, nominal.gravity(), low, high);
+  if (!friction) return {};
+  body.friction = *friction;
+  return Motion(centerline, body, nominal.gravity());
+}
+
+WearAtFrictions wear_at_frictions(const Track& track) {
+  std::vector<LevelRide> rides = track.rides();
+  const std::optional<Motion> between = most_wearing_ride(track.centerline, track.motion, track.range);
+  if (between) rides.push_back({FrictionLevel::between, &*between});
+  // What flies over the start, or stands there, rubs nothing.
+  std::erase_if(rides, [](const LevelRide& ride) { return !enters(*ride.motion); });
+  if (rides.empty()) return {};
+  std::vector<const Motion*> motions;
+  for (const LevelRide& ride : rides) motions.push_back(ride.motion);
+  WearAtFrictions wear;
+  wear.facts = wear_of(motions);
+  wear.level = rides[wear.facts.ride].level;
+  wear.pressed_level = rides[wear.facts.pressed_ride].level;
+  return wear;
 }
 
 std::vector<FloorWear> pipeline::floor_wear(const Design& design, const Track& track) {
   std::vector<const Motion*> motions;
   for (const LevelRide& ride : track.rides()) motions.push_back(ride.motion);
+  const std::optional<Motion> between = most_wearing_ride(track.centerline, track.motion, track.range);
+  if (between) motions.push_back(&*between);
   const std::vector<FloorLoad> loads = floor_loads(motions);
   double peak = 0.0;
   for (const FloorLoad& load : loads) peak = std::max(peak, load.wear);

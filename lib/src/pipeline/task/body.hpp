@@ -19,6 +19,13 @@ namespace glissade::pipeline {
 /// @param track  of a design with a stream
 [[nodiscard]] std::vector<FloorWear> floor_wear(const Design& design, const Track& track);
 
+/// The ride at the friction inside a range at which a stream wears its floor most.
+/// @param nominal  of a stream
+/// @param range    the rides at the ends of the range
+/// @return none where that is an end, or there is no range
+[[nodiscard]] std::optional<Motion> most_wearing_ride(const CenterlinePtr& centerline, const Motion& nominal,
+                                                      const std::vector<RangeRide>& range);
+
 /// @return of a body on the straight line to the finish; none where it does not get onto it or does not arrive
 [[nodiscard]] std::optional<Motion> straight_ride(const Endpoints& endpoints, const Body& body,
                                                   double gravity);
