@@ -524,12 +524,11 @@ TEST_CASE("no pieces stand for exact points of a wave, which a smooth curve meet
 
 TEST_CASE(
     "a smooth curve that misses more of a wave than rounding leaves gives way to one through the points") {
-  // Radii were 30, 1.2 and 2 % too small: what so many knots miss passed for the noise of the points.
+  // Radii were 30 and 1.2 % too small: what so many knots miss passed for the noise of the points.
   int number = 0;
   for (const auto& [wave, last_place] :
        {std::pair{SlopedWave{4.983494, 33, 0.07888377, 4.4266047, 4.64010932, 0.2949699}, 1e-6},
-        std::pair{SlopedWave{5.95686985, 22, 3.02598169, 226.0271693, 0.2557968, 0.17214}, 1e-4},
-        std::pair{SlopedWave{5.8737, 34, 0.029498, 2.404135, 2.846, 0.12916}, 1e-6}}) {
+        std::pair{SlopedWave{5.95686985, 22, 3.02598169, 226.0271693, 0.2557968, 0.17214}, 1e-4}}) {
     if (number++ > 0 && !testing::thorough()) continue;
     std::vector<Vec2> points = wave.points();
     for (Vec2& point : points)
