@@ -579,7 +579,8 @@ struct Comparison {
   double least_noise = 0.0;  // what may be no more than that
   double least_told =
       0.0;  // what pieces may leave of exact points, over the same: less is no evidence against them
-  bool breaks = false;  // neighbours foretell each other but in some places
+  bool breaks = false;    // neighbours foretell each other but in some places
+  bool foretold = false;  // every second point foretells the others, everywhere
 };
 
 Comparison compared(const FollowedProfile& followed, const Found& found, const std::vector<Vec2>& points,
@@ -598,15 +599,22 @@ Comparison compared(const FollowedProfile& followed, const Found& found, const s
   result.least_told = kBuilt;
   const auto count = static_cast<double>(std::min(points.size(), kMostFollowed));
   result.noise = std::sqrt(followed.cost.mean_square) / (1.0 - followed.cost.freedom / count);
-  if (places) result.noise = std::max(result.noise, std::sqrt(noise_of_rounding(points, *places)) / length);
-  if (!followed.exact || places) return result;
-  // What a smooth curve leaves of exact points is its own stiffness.
-  if (const auto left = scatter_beside_neighbours(points)) {
-    result.noise = std::min(result.noise, left->all / length);
+  const double rounding = places ? std::sqrt(noise_of_rounding(points, *places)) / length : 0.0;
+  result.noise = std::max(result.noise, rounding);
+  if (!followed.exact) return result;
+  // What a smooth curve leaves of points that it would follow is its own stiffness.
+  const auto left = scatter_beside_neighbours(points);
+  if (left) result.noise = std::clamp(left->all / length, rounding, std::max(result.noise, rounding));
+  if (places) return result;
+  if (left) {
     result.least_noise = std::min(result.noise, left->quarter / length);
     result.breaks = followed.missed_by_half && left->quarter < kForetold * *followed.missed_by_half;
   }
   if (followed.missed_by_half) {
+    constexpr double kNoneBetween = 1e-9;  // measured: of waves of a hundred points each and more
+    constexpr double kRounding = 1e-14;    // rounding: of coordinates, over the length
+    const bool breaks = result.breaks && left->all > kRounding * length;
+    result.foretold = !breaks && *followed.missed_by_half <= kNoneBetween * length;
     const double told = kLeft * std::max(*followed.missed_by_half, followed.between) / length;
     result.least_told = std::clamp(told, kFewPieces, kBuilt);
   }
@@ -626,6 +634,23 @@ bool follows_better(const FollowedProfile& followed, const Found& found, const C
   if (!found.described() && followed.exact && !places && leaves_less_open) return true;
   return points.size() >= kFewestToValidate &&
          beside.missed > std::max(kPlainly * beside.noise, found.described() ? beside.least_told : kMet);
+}
+
+/// Whether a smooth curve of hardly more numbers meets points that scatter as well as pieces do that no drawing has: a wave
+/// cut into such is met by them, with a curvature that is wrong at the cuts.
+bool follows_as_well(const FollowedProfile& followed, const Found& found, const Comparison& beside,
+                     const std::vector<Vec2>& points) {
+  constexpr double kDrawn = 2.0;       // theory: what one bend costs, as drawings have them
+  constexpr double kHardlyMore = 1.3;  // measured: of waves 1.05 to 1.25, of what was drawn from 1.35 on
+  constexpr double kAsWell = 1.02;     // taste: of what pieces leave
+  if (!found.described() || !found.description->scattered || followed.exact) return false;
+  const Description& pieces = *found.description;
+  if (pieces.unlikely <= kDrawn) return false;
+  if (followed.cost.freedom > kHardlyMore * (pieces.freedom + pieces.unlikely)) return false;
+  std::vector<Vec2> seen = points;
+  for (Vec2& point : seen) point = point - followed.start;
+  const double left = std::sqrt(mean_square_deviation(followed.curve, seen));
+  return left <= kAsWell * beside.missed * found.fitted.curve.length();
 }
 
 /// Whether pieces leave more of exact points than a drawing does, but less than a curve through them may be off.
@@ -648,6 +673,19 @@ CurvatureRange range_beside(const std::optional<CurvatureRange>& range, const Cl
           std::max(known.greatest, std::max(own, most) + open)};
 }
 
+/// The range less what a curve through exact points rules out: of pieces that no drawing has those that lie between points
+/// could be as sharp as one likes, though every second one foretells the others.
+std::optional<CurvatureRange> within_foretold(const std::optional<CurvatureRange>& range,
+                                              const ClothoidSpline& curve, const ClothoidSpline& through,
+                                              const std::vector<Vec2>& points) {
+  const auto foretold = widened(range_by_half(through, points, false), curve);
+  if (!range || !foretold) return range;
+  // The last point may be foretold by none.
+  if (foretold->greatest > (1.0 + kOpenRadius) * foretold->least) return range;
+  return CurvatureRange{std::max(range->least, foretold->least),
+                        std::min(range->greatest, foretold->greatest)};
+}
+
 /// Of the ways to describe points the best.
 FittedCurve best_of_ways(const std::vector<Vec2>& points, const std::optional<LastPlaces>& places) {
   Found found = smooth_or_described(points, places);
@@ -655,8 +693,13 @@ FittedCurve best_of_ways(const std::vector<Vec2>& points, const std::optional<La
   std::vector<Vec2> to_follow = thinned(points, kMostFollowed);
   auto followed = points.size() < kFewestFollowed ? std::nullopt : follow_points(to_follow);
   const Comparison beside = followed ? compared(*followed, found, points, places) : Comparison{};
-  if (!followed || !follows_better(*followed, found, beside, points, places)) {
+  if (!followed || !(follows_better(*followed, found, beside, points, places) ||
+                     follows_as_well(*followed, found, beside, points))) {
     found.fitted.largest_curvature = curvature_range(found, points, places);
+    if (beside.foretold && found.described() && found.description->unlikely > 0.0) {
+      found.fitted.largest_curvature =
+          within_foretold(found.fitted.largest_curvature, found.fitted.curve, followed->curve, to_follow);
+    }
     if (followed && unsure(*followed, found, beside, places)) {
       found.fitted.largest_curvature =
           range_beside(found.fitted.largest_curvature, found.fitted.curve, followed->curve);
