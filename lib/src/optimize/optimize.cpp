@@ -299,8 +299,8 @@ std::optional<Friction> wearing_more(const Problem& problem, const Optimum& opti
   return is_known ? std::nullopt : most;
 }
 
-/// The search, once more with each friction at which its track wears more than it has seen. What it found before counts where that
-/// leads to nothing better.
+/// The search, once more with each friction at which its track wears more than it has seen. All of them lead to tracks that keep
+/// every limit all over the range: what was found before counts where the next one did not converge, or is slower.
 Optimum searched_over_range(Problem problem, const OptimizeOptions& options, const std::stop_token& stop,
                             const Progress& progress) {
   constexpr int kMostFrictions = 4;  // budget
@@ -314,7 +314,10 @@ Optimum searched_over_range(Problem problem, const OptimizeOptions& options, con
     next.report.seconds += best.report.seconds;
     const bool is_worse = !next.centerline || (next.report.status != OptimizeStatus::optimal &&
                                                best.report.status == OptimizeStatus::optimal);
-    if (is_worse) break;
+    const bool is_slower = problem.objective.kind == ObjectiveKind::travel_time &&
+                           !problem.objective.worst_case && best.report.status == OptimizeStatus::optimal &&
+                           next.report.travel_time > best.report.travel_time;
+    if (is_worse || is_slower) break;
     best = std::move(next);
     more = wearing_more(problem, best);
   }

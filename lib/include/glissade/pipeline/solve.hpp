@@ -69,7 +69,7 @@ struct WearAtFrictions {
 /// Over every friction of the range at which it gets onto its track (enters()): the ends, the nominal one, and where the floor
 /// wears more at one between them (friction_of_most_wear()) that, too.
 /// @param track  of a design with a stream
-/// @return rides counted in no order; nothing worn where none enters
+/// @return facts whose numbers of rides mean nothing, which the levels tell instead; nothing worn where none enters
 [[nodiscard]] WearAtFrictions wear_at_frictions(const Track& track);
 
 /// How fast a liner gets thinner where it wears most.
