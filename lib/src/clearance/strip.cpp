@@ -146,31 +146,75 @@ std::vector<Approach> Strip::along(const Region& region) const {
   return approaches;
 }
 
-// By how much the levels between two stations stray from the chords of their ends. In between, L^2 - l^2 is
-// convex in the height on either side of the floor, so that its ends and the floor tell.
+namespace {
+
+/// What lies between two stations: at each height a level, its chord the line between its ends.
+struct Levels {
+  Vec2 floor;    ///< chord at height 0
+  Vec2 leaning;  ///< by which it changes per height
+  double turned = 0.0;
+  double rounding = 0.0;  ///< of a difference of lengths, at height 0
+
+  [[nodiscard]] Vec2 chord(double height) const { return floor + height * leaning; }
+
+  /// How far a level of such a length strays from its chord.
+  /// @param one_way  it does not go back
+  [[nodiscard]] double straying(double height, double arc, bool one_way) const {
+    const double chord = norm(this->chord(height));
+    // The difference of two lengths that are all but equal is rounding.
+    const double allowed = rounding + kRounding * std::fabs(height);
+    const double straying = 0.5 * std::sqrt(std::max(0.0, arc - chord + allowed) * (arc + chord));
+    return one_way ? std::min(straying, 0.25 * arc * turned) : straying;
+  }
+
+  /// The most that any level between two heights strays. Lengths are convex in the height: none is longer than on the line
+  /// between those at the two.
+  [[nodiscard]] double straying_between(double low, double low_arc, double high, double high_arc) const {
+    const Vec2 from = chord(low);
+    const Vec2 change = (high - low) * leaning;
+    const double more = high_arc - low_arc;
+    // arc^2 - chord^2 = constant + t (slope + t curvature)
+    const double curvature = more * more - dot(change, change);
+    const double slope = 2.0 * (low_arc * more - dot(from, change));
+    if (!(curvature < 0.0)) return 0.0;  // then the ends have the most
+    const double t = std::clamp(-0.5 * slope / curvature, 0.0, 1.0);
+    return straying(low + t * (high - low), low_arc + t * more, false);
+  }
+
+  static constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+};
+
+}  // namespace
+
+// By how much the levels between two stations stray from the chords of their ends. Where none folds over, or all of each does,
+// L^2 - l^2 is convex in the height, so that the ends of such heights tell. In between, past the centres of curvature of some
+// stations and not yet of all, a level turns back and goes beyond both ends of its chord.
 double Strip::straying(const Rib& a, const Rib& b) const {
   const double length = b.s - a.s;
   const double turn = a.slope - b.slope;
   const double bend = std::max(std::fabs(a.kappa), std::fabs(b.kappa));
   const double turned = a.kappa * b.kappa >= 0.0 ? std::fabs(turn) : length * bend;
-  double most = 0.0;
-  for (const double height : {-envelope_.below, 0.0, envelope_.top()}) {
-    // Beyond 1 the level folds over; on the floor nothing does, however tight the curve.
-    const double fold_a = height == 0.0 ? 0.0 : a.kappa * height;
-    const double fold_b = height == 0.0 ? 0.0 : b.kappa * height;
-    const double least_fold = std::min(fold_a, fold_b);
-    const double most_fold = std::max(fold_a, fold_b);
-    const bool plain = most_fold <= 1.0;
-    double arc = length + std::fabs(height) * turned;
-    if (plain) arc = length - height * turn;
-    const bool folded = least_fold >= 1.0;
-    if (folded) arc = height * turn - length;
-    const double chord = norm(b.point + height * b.normal - a.point - height * a.normal);
-    // The difference of two lengths that are all but equal is rounding.
-    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * (finish_.s + std::fabs(height));
-    double straying = 0.5 * std::sqrt(std::max(0.0, arc - chord + rounding) * (arc + chord));
-    if (plain || folded) straying = std::min(straying, 0.25 * arc * turned);
-    most = std::max(most, straying);
+  const Levels levels{b.point - a.point, b.normal - a.normal, turned, Levels::kRounding * finish_.s};
+  // On the floor nothing folds over, however tight the curve.
+  double most = levels.straying(0.0, length, true);
+  for (const double height : {-envelope_.below, envelope_.top()}) {
+    if (height == 0.0) continue;
+    const double least_fold = std::min(a.kappa * height, b.kappa * height);
+    const double most_fold = std::max(a.kappa * height, b.kappa * height);
+    if (most_fold <= 1.0) {
+      most = std::max(most, levels.straying(height, length - height * turn, true));
+    } else if (least_fold < 1.0) {
+      most = std::max(most, levels.straying(height, length + std::fabs(height) * turned, false));
+    } else {
+      const double first = height / most_fold;
+      const double last = height / least_fold;
+      const double first_arc = std::max(0.0, length - first * turn);
+      const double last_arc = std::max(0.0, last * turn - length);
+      most = std::max({most, levels.straying(first, first_arc, true),
+                       levels.straying_between(first, first_arc, last, last_arc),
+                       levels.straying(last, last_arc, true),
+                       levels.straying(height, height * turn - length, true)});
+    }
   }
   return most;
 }
