@@ -329,6 +329,25 @@ TEST_CASE("a valley tighter than the body's centre of mass is high ends its ride
             .arrived());
 }
 
+TEST_CASE("on a piece that ends in a valley too tight, a crest before it ends the ride") {
+  // One clothoid from the crest to the valley: only its end is too tight.
+  const std::vector<ClothoidSegment> segments{
+      {0.3, 0.0, 0.1}, {0.3, 0.0, -0.1}, {0.2, 0.0, 0.0}, {0.2, 0.1, 0.0}, {0.24, -28.0, 28.0}};
+  const Motion motion(track(0.8, segments), body(0.05, 0.0, ball(0.04)));
+  REQUIRE(motion.lift_off());
+  CHECK_FALSE(motion.law_end());
+  CHECK(motion.distance() == Approx(1.0).epsilon(1e-12));
+  const Motion before(track(0.8, {segments.begin(), segments.end() - 1}), body(0.05, 0.0, ball(0.04)));
+  CHECK(motion.lift_off()->speed == Approx(before.exit_speed()).epsilon(1e-12));
+  // One that a held body passes, pressing upwards on the crest, ends in the valley.
+  Body held = body(0.05, 0.0, ball(0.04));
+  held.held = true;
+  const Motion passes(track(0.8, segments), held);
+  CHECK_FALSE(passes.lift_off());
+  REQUIRE(passes.law_end());
+  CHECK(passes.distance() > 1.2);
+}
+
 TEST_CASE("rider: a centre of mass above a level take-off is lower there than at the steep start") {
   // In-run of 35 deg to 10 deg: without friction, energy alone gives the speed of the centre.
   constexpr double kHeight = 0.6;

@@ -247,14 +247,16 @@ void Integrator::press(const Stretch& stretch) {
 /// @return what is left of the stretch where a held body has come to press on the other side; nothing otherwise
 std::optional<Stretch> Integrator::slide_on(const Stretch& whole, int halvings) {
   std::vector<Task> tasks{{whole, false, 0, {}}};
-  std::optional<double> lift_off;
-  std::optional<double> too_tight;
-  std::optional<double> law_ends;
-  // What has been found to happen at s: only the way there is still to be told.
-  const auto go_to = [&](const Task& task, double s, bool proven) {
+  struct Event {
+    Verdict what;
+    double s;
+  };
+  std::optional<Event> event;
+  // What has been found to happen at s: only the way there is still to be told, and what happens on it comes before.
+  const auto go_to = [&](const Task& task, Verdict what, double s, bool proven) {
     tasks.clear();
     if (s > task.stretch.begin) tasks.push_back({task.stretch.cut_at(s), proven, 0, {}});
-    return s;
+    event = Event{what, s};
   };
   while (!tasks.empty()) {
     const Task task = tasks.back();
@@ -288,22 +290,23 @@ std::optional<Stretch> Integrator::slide_on(const Stretch& whole, int halvings) 
         record_.end.time = core::kInfinity;
         return {};
       case Verdict::lift_off:
-        lift_off = go_to(task, where_load_ends(panel), true);
+        go_to(task, Verdict::lift_off, where_load_ends(panel), true);
         break;
       case Verdict::too_tight:
         // Other things may still happen on the way.
-        too_tight = go_to(task, where_it_is_too_tight(panel), false);
+        go_to(task, Verdict::too_tight, where_it_is_too_tight(panel), false);
         break;
       case Verdict::law_ends:
-        law_ends = go_to(task, where_law_ends(panel), true);
+        go_to(task, Verdict::law_ends, where_law_ends(panel), true);
         break;
     }
   }
-  if (lift_off && equation().held && *lift_off < whole.end) return whole.beyond(*lift_off);
-  if (lift_off && !equation().held) leave_track(*lift_off);
-  if (law_ends) end_law(*law_ends);
-  if (too_tight) end_in_valley(*too_tight);
-  return {};
+  if (!event) return {};
+  if (event->what == Verdict::law_ends) end_law(event->s);
+  if (event->what == Verdict::too_tight) end_in_valley(event->s);
+  if (event->what != Verdict::lift_off) return {};
+  if (!equation().held) leave_track(event->s);
+  return equation().held && event->s < whole.end ? std::optional(whole.beyond(event->s)) : std::nullopt;
 }
 
 Integrator::Verdict Integrator::judge(const Panel& panel, const Task& task, const Miss& miss) const {
