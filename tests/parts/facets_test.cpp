@@ -143,6 +143,34 @@ TEST_CASE("facets: a place on the track is its foot on the flats, the same on st
   }
 }
 
+TEST_CASE("facets: what hardly turns between two bends takes no bend of its own") {
+  for (const double hardly : {3e-9, -4e-8, -1e-6, 5e-5, -9e-5}) {
+    ArcPath path;
+    Vec2 at;
+    double heading = -0.9;
+    for (const double turn : {0.3, hardly, 0.2, hardly, -0.25}) {
+      path.vertices.push_back({at, std::tan(0.25 * turn)});
+      const double chord = 1.3 * std::sin(0.5 * turn) / (0.5 * turn);
+      at = at + chord * Vec2{std::cos(heading + 0.5 * turn), std::sin(heading + 0.5 * turn)};
+      heading += turn;
+    }
+    path.vertices.push_back({at, 0.0});
+    const ArcSpline track(path);
+    const Facets facets = facets_by_angle(track, {0.0, track.length()}, 0.1, 0.01, 0.01);
+    CAPTURE(hardly, facets.bends());
+    require_in_order(track, facets);
+    for (const double kink : facets.kinks) CHECK(std::fabs(kink) > 1e-3);
+    CHECK(bent_face(facets, 5e-3, 3e-3).length() < track.length() + 0.1);
+  }
+  // Flats that turn by next to nothing make a face all the same.
+  Facets slight;
+  slight.corners = {{0.0, 0.0}, {1.3, 0.0}, {2.9, 1.6 * 4e-8}};
+  slight.kinks = {4e-8};
+  slight.misses = {0.0};
+  slight.touches = {0.0, 2.9};
+  CHECK(bent_face(slight, 5e-3, 3e-3).length() == Approx(2.9).epsilon(1e-12));
+}
+
 TEST_CASE("facets: flats lead on where those beside a turning point would be too short") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());

@@ -20,6 +20,8 @@ namespace glissade::parts {
 namespace {
 
 constexpr double kSame = 1e-9;  // [m], [rad]
+// What turns by less than this, a hundredth of what presses are set to, needs no bend [rad].
+constexpr double kNoBend = 1e-4;
 
 /// A stretch that turns one way only, or not at all, with its share of the turning.
 struct Bow {
@@ -28,7 +30,7 @@ struct Bow {
   double turned = 0.0;  // towards the upper side [rad]
 };
 
-/// Neighbouring arcs that turn the same way, as one; straight pieces go with what is before them.
+/// Neighbouring arcs that turn the same way, as one; straight pieces, and what hardly turns, go with what is before them.
 std::vector<Bow> bows(const ArcSpline& track, const Span& span) {
   std::vector<Bow> found;
   for (const TrackArc& arc : track.arcs()) {
@@ -36,7 +38,9 @@ std::vector<Bow> bows(const ArcSpline& track, const Span& span) {
     const double to = std::min(span.to, arc.start + arc.length);
     if (!(to - from > kSame)) continue;
     const double turned = arc.curvature * (to - from);
-    const bool same = !found.empty() && (turned * found.back().turned >= 0.0);
+    const auto hardly = [](double angle) { return std::fabs(angle) < kNoBend; };
+    const bool same = !found.empty() &&
+                      (turned * found.back().turned >= 0.0 || hardly(turned) || hardly(found.back().turned));
     if (same) {
       found.back().to = to;
       found.back().turned += turned;
@@ -60,7 +64,7 @@ double place_at(const ArcSpline& track, const Bow& bow, double share) {
     const TrackArc& arc = track.arcs()[i];
     const double from = std::max(bow.from, arc.start);
     const double turned = arc.curvature * (std::min(bow.to, arc.start + arc.length) - from);
-    if (std::fabs(left) <= std::fabs(turned) && turned != 0.0) return from + left / arc.curvature;
+    if (std::fabs(left) <= std::fabs(turned) && left * turned > 0.0) return from + left / arc.curvature;
     left -= turned;
   }
   return bow.to;
@@ -342,7 +346,14 @@ ArcSpline bent_face(const Facets& facets, double inner_radius, double thickness)
     path.vertices.push_back({end - (taken[i + 1] / length) * along, math::tan(0.25 * kink)});
     path.vertices.push_back({end + (taken[i + 1] / norm(next)) * next, 0.0});
   }
-  return ArcSpline(path);
+  // Of a bend by next to nothing the ends lie so close that rounding turns the line between them.
+  double largest_kink = kArcSplineKink;
+  for (std::size_t i = 1; i + 1 < path.vertices.size(); ++i) {
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * norm(path.vertices[i].at);
+    for (const std::size_t other : {i - 1, i + 1})
+      largest_kink = std::max(largest_kink, rounding / norm(path.vertices[other].at - path.vertices[i].at));
+  }
+  return ArcSpline(path, largest_kink);
 }
 
 namespace {
