@@ -113,7 +113,7 @@ TEST_CASE("noise of points is smoothed away, and the deviations tell how large i
 TEST_CASE("deviations are the nearest distances that a search over the whole curve finds") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const double noise = GENERATE(1e-4, 5e-3, 3e-2);
+  const double noise = GENERATE(1e-4, 5e-3, 1.5e-2);
   INFO("noise " << noise);
   const FittedProfile profile(sampled(easy_track(), 80, noise, random));
   constexpr int kChords = 20000;

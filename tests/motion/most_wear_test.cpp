@@ -33,7 +33,7 @@ double peak_of(const CenterlinePtr& centerline, Body body, double mu) {
   const Motion motion(centerline, body, kDefaultGravity);
   double peak = 0.0;
   for (int i = 0; i <= 400; ++i)
-    peak = std::max(peak, mu * motion.at(motion.distance() * i / 400.0).normal_load);
+    peak = std::max(peak, mu * motion.at(motion.distance() * (i / 400.0)).normal_load);
   return peak * 28.0 / 0.4;
 }
 

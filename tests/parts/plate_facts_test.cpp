@@ -146,7 +146,11 @@ struct Joint {
       const double sign = place.z.x < 0.0 ? -1.0 : 1.0;
       const auto see = [&](Vec2 middle) {
         const Vec3 at = place.to_space({middle.x, middle.y, 0.0});
-        bolts.push_back({at.y, sign * (place.z.x * at.z - place.z.z * at.x)});
+        const Vec2 bolt{at.y, sign * (place.z.x * at.z - place.z.z * at.x)};
+        // Along a straight track the frames of all units have theirs behind one another.
+        const bool known =
+            std::any_of(bolts.begin(), bolts.end(), [&](Vec2 other) { return norm(other - bolt) < 1e-9; });
+        if (!known) bolts.push_back(bolt);
       };
       for (const Circle& hole : part.pattern->region.holes) see(hole.centre);
       for (const ArcPath& cutout : part.pattern->region.cutouts) {
@@ -181,7 +185,7 @@ bool is_of_frame(const ShopPart& part) {
   return part.name.find("frame") != std::string::npos || part.name.find("flange") != std::string::npos;
 }
 
-/// Of the frames at both ends of a single unit.
+/// Of the frames at both ends of units.
 std::array<double, 2> by_hand(const WorkshopBuild& build, bool closed) {
   std::array<Joint, 2> joints;
   for (const ShopPart& part : build.workshop.parts) {

@@ -303,7 +303,7 @@ TEST_CASE("timber troughs: random sections and bends clash nowhere and keep volu
     options.deck.layers = random.integer(1, 3);
     options.deck.stave_tolerance = 4e-3;
     options.frame = k % 2 == 0 ? TimberFrame::beams : TimberFrame::ribs;
-    options.split.sheet = {3.0, 2.0};
+    options.split.sheet = {6.0, 3.0};
     const WorkshopBuild build = timber(
         bend(random.between(4.0, 30.0), random.between(2.0, 5.0), k < 3 ? 1.0 : -1.0), measures, options);
     CHECK(build.proof.volume == Approx(build.proof.exact_volume).epsilon(1e-9));
