@@ -98,6 +98,67 @@ TEST_CASE("area and centre of a half disc and of a flat cap are those of the boo
   CHECK(flat.centroid.y == Approx(0.4 * bulge).epsilon(1e-9));
 }
 
+TEST_CASE("outlines along bends whose radii hardly differ have no fault, and one that meets itself has") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int round = 0; round < 200; ++round) {
+    // A strip: both long sides are chains of tangent arcs, each with a little more or less curvature than the one before.
+    const double curvature = std::pow(10.0, random.between(-4.0, -0.5));
+    const double change = std::pow(10.0, random.between(-12.0, -0.5));
+    ArcPath path{{}, true};
+    std::vector<glissade::PathVertex> back;
+    Vec2 at{random.between(-5.0, 5.0), random.between(-5.0, 5.0)};
+    double heading = random.between(-3.0, 3.0);
+    constexpr double kWide = 0.2;
+    const auto aside = [&] { return at + kWide * Vec2{-std::sin(heading), std::cos(heading)}; };
+    for (int piece = random.integer(2, 5); piece > 0; --piece) {
+      const double length = random.between(0.01, 0.8);
+      const double sweep = length * curvature * (1.0 + random.between(-change, change));
+      // Tangent but for what rounding leaves.
+      const auto rounded = [&](Vec2 place) {
+        return place + Vec2{random.between(-1e-12, 1e-12), random.between(-1e-12, 1e-12)};
+      };
+      path.vertices.push_back({rounded(at), std::tan(0.25 * sweep)});
+      back.push_back({rounded(aside()), 0.0});
+      const double chord = length * std::sin(0.5 * sweep) / (0.5 * sweep);
+      at = at + chord * Vec2{std::cos(heading + 0.5 * sweep), std::sin(heading + 0.5 * sweep)};
+      heading += sweep;
+      back.back().bulge = -std::tan(0.25 * sweep);
+    }
+    path.vertices.push_back({at, 0.0});
+    // From the end back to the start: each bulge belongs to the vertex that its piece begins with.
+    path.vertices.push_back({aside(), back.back().bulge});
+    for (std::size_t i = back.size(); i-- > 0;)
+      path.vertices.push_back({back[i].at, i > 0 ? back[i - 1].bulge : 0.0});
+    CAPTURE(round, curvature, change);
+    CHECK(glissade::faults_of({path, {}, {}}) == std::vector<std::string>{});
+  }
+  // Walls of a nearly straight channel, as a build laid them out.
+  const std::vector<glissade::PathVertex> walls[] = {
+      {{{8.6278901467657239e-05, 0}, -1.8434734489680496e-06},
+       {{0.010394343490118089, 4.6163433515727387e-06}, -0.00010885495839617564},
+       {{0.62270485316282409, 0.0001426730526083455}, -0.0001146041411497189},
+       {{1.2647285689517984, 1.0842021724855044e-19}, 0},
+       {{1.2648148427138082, 0.19108334089582549}, 0.0001146041411497189},
+       {{0.62270352945452434, 0.1912260334146906}, 0.00010885495839617564},
+       {{0.010309473616914663, 0.19108795786840849}, 1.8434734489680496e-06},
+       {{0, 0.19108334089404047}, 0}},
+      {{{0, 0.00014247544345380447}, 1.0578665384140135e-05},
+       {{0.059258648956386224, 0.00011698490725724385}, 4.8578593600431316e-05},
+       {{0.33188545057122054, 3.2158089683199031e-05}, 0.00016632950530466809},
+       {{1.2638025020639572, 0.00014247544172679661}, 0},
+       {{1.263716316630547, 0.1912258163607842}, -0.00016632950530466809},
+       {{0.33192639633660198, 0.19111551405812421}, -4.8578593600431316e-05},
+       {{0.059336789291455347, 0.19120032930274597}, -1.0578665384140135e-05},
+       {{8.6226118591727893e-05, 0.19122581636078428}, 0}}};
+  for (const std::vector<glissade::PathVertex>& wall : walls)
+    CHECK(glissade::faults_of({{wall, true}, {}, {}}) == std::vector<std::string>{});
+  // Most of a circle, and a straight piece that leads on through it.
+  const double bulge = std::tan(0.25 * 5.5);
+  const ArcPath loop{{{{0.0, 0.0}, bulge}, {{0.5, 0.0}, 0.0}, {{-0.4, -1.0}, 0.0}}, true};
+  CHECK(glissade::faults_of({loop, {}, {}}) == std::vector<std::string>{"the outline meets itself"});
+}
+
 TEST_CASE(
     "random outlines: area, bounds and length agree with their finest polygon, whichever way round and "
     "moved") {

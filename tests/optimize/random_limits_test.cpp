@@ -42,7 +42,7 @@ std::optional<std::shared_ptr<ClothoidSpline>> through_finish(double entry,
     moved[middle + 1].entry_curvature += bend;
     for (ClothoidSegment& segment : moved) {
       const bool straight = segment.entry_curvature == 0.0 && segment.exit_curvature == 0.0;
-      if (!straight) segment.length *= 1.0 + stretch;
+      if (!straight) segment.length *= std::max(0.1, 1.0 + stretch);  // Newton's first steps may go far
     }
     return std::make_shared<ClothoidSpline>(Angle::from_radians(entry), std::move(moved));
   };

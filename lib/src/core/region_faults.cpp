@@ -1,4 +1,5 @@
 #include "glissade/core/arc_path.hpp"
+#include "glissade/core/math.hpp"
 
 #include "core/arc_pieces.hpp"
 
@@ -16,8 +17,24 @@ bool finite(const ArcPath& path) {
   });
 }
 
+Vec2 turned(Vec2 way, double angle) {
+  const auto [sine, cosine] = math::sine_cosine(angle);
+  return {cosine * way.x - sine * way.y, sine * way.x + cosine * way.y};
+}
+
+/// Whether the second of two neighbours goes on ahead of their corner, and the first one stays behind it: neither turns by a right
+/// angle, and the corner less than one. Where circles hardly differ, rounding would have them meet again close to it.
+bool leads_on(const PathPiece& before, const PathPiece& after) {
+  constexpr double kEighth = 0.4;  // just less than tan(pi/8), of a quarter of a circle
+  if (!(std::fabs(before.bulge) < kEighth && std::fabs(after.bulge) < kEighth)) return false;
+  const Vec2 comes = turned(before.to - before.from, 2.0 * math::atan(before.bulge));
+  const Vec2 goes = turned(after.to - after.from, -2.0 * math::atan(after.bulge));
+  return dot(comes, goes) > 0.0;
+}
+
 /// Neighbours share a corner; whether they meet anywhere else, or run back over each other.
 bool neighbours_clash(const PathPiece& before, const PathPiece& after, double nearness) {
+  if (leads_on(before, after)) return false;
   const std::vector<Vec2> places = core::meetings(before, after);
   const bool elsewhere = std::any_of(places.begin(), places.end(), [&](Vec2 place) {
     return norm(place - before.to) > nearness && norm(place - after.to) > nearness;
