@@ -96,8 +96,12 @@ TEST_CASE("trestles are no farther apart than is asked for, or a note says where
     const std::vector<double> row = places_of(build);
     const double length = build.master.spline->length();
     const double most = 0.5 * options.supports->spacing + 1e-3;
-    CHECK((row.front() > most) == tells_of_end(build, "above the first"));
-    CHECK((length - row.back() > most) == tells_of_end(build, "below the last"));
+    // Places as they are measured on the parts are a few millimetres off those along the track.
+    constexpr double kClose = 5e-3;
+    if (std::fabs(row.front() - most) > kClose)
+      CHECK((row.front() > most) == tells_of_end(build, "above the first"));
+    if (std::fabs(length - row.back() - most) > kClose)
+      CHECK((length - row.back() > most) == tells_of_end(build, "below the last"));
     kept = kept || !wide;
     told = told || wide;
   }
