@@ -226,7 +226,7 @@ TEST_CASE(
   int between = 0;
   for (int i = 0; i < 30; ++i) {
     const Endpoints ends{random.between(1.0, 4.0), random.between(1.0, 3.0)};
-    const CoulombBrachistochrone track(ends, Friction::from_coefficient(random.between(0.0, 0.3)));
+    const CoulombBrachistochrone track(ends, Friction::from_coefficient(random.between(0.0, 0.2)));
     Envelope whole{random.between(0.0, 0.1), random.between(0.3, 0.8), 0.0};
     whole.headroom = random.between(0.05, 0.25);
     const double x = random.between(0.0, 1.5) * whole.headroom;
