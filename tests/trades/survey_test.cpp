@@ -201,7 +201,7 @@ TEST_CASE(
   std::vector<SurveyPoint> none;
   for (int i = 0; i < 6; ++i) none.push_back(off(track->at(track->length()), 0.1 + 0.1 * i));
   CHECK_THROWS_WITH(ride_survey(track, survey_of(*track, none), skier(), 9.81),
-                    Contains("points: they lie before the start of the track or beyond its end"));
+                    Contains("the points lie before the start of the track or beyond its end"));
 }
 
 TEST_CASE("below the first point of a survey friction is that of the place, and no impact is met again") {
@@ -234,10 +234,14 @@ TEST_CASE(
   CHECK_THAT(text, Contains("beyond: the point lies") && Contains("beyond the end of the track"));
   CHECK_THAT(text, Contains("Points within 1 m of the profile belong to it.") &&
                        Contains("Try: points of this track"));
+  points[4].source = "s.csv:6";
+  points[9].name = points[9].source = "s.csv:11";
+  CHECK_THAT(problem_of(points),
+             Contains("s.csv:6: the point p5 lies 2.4") && Contains("s.csv:11: the point lies 2.5 m beside"));
   CHECK_THAT(problem_of({points[0], points[1]}), Contains("2 points make no survey"));
   SurveyOptions none;
   none.tolerance = 0.0;
-  CHECK_THAT(problem_of(points, none), Contains("--tolerance") && Contains("is not positive"));
+  CHECK_THAT(problem_of(points, none), Contains("--tolerance: 0 mm is not positive"));
 }
 
 TEST_CASE("a survey in site coordinates is turned into the plane of a track that leads anywhere") {

@@ -47,7 +47,8 @@ std::vector<SurveyPoint> read_survey(const std::filesystem::path& file, const Pl
     const double y = columns.has("y") ? columns.number(row, "y") - start.y : 0.0;
     SurveyPoint point;
     const std::string name = columns.text(row, "name");
-    point.name = name.empty() ? columns.place(row) : name;
+    point.source = columns.place(row);
+    point.name = name.empty() ? point.source : name;
     point.run = columns.has("y") ? x * math::cos(azimuth) + y * math::sin(azimuth) : x / math::cos(azimuth);
     point.aside = columns.has("y") ? y * math::cos(azimuth) - x * math::sin(azimuth) : 0.0;
     point.drop = start.z - columns.number(row, "z");
