@@ -4,6 +4,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/surveys.hpp"
+#include "glissade/report/figure.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
@@ -46,6 +47,12 @@ std::vector<SurveyPoint> points_on(const Centerline& track, double from, double 
                       at.drop - up * std::cos(at.slope_angle), 0.002});
   }
   return points;
+}
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
 }
 
 std::string problem_of(const std::vector<SurveyPoint>& points, const SurveyOptions& options = {}) {
@@ -266,6 +273,20 @@ TEST_CASE("a survey in site coordinates is turned into the plane of a track that
   for (const SurveyedPlace& place : survey.places) {
     CHECK(std::fabs(place.deviation) < 2e-6);
     CHECK(std::fabs(place.aside - 0.05) < 2e-6);
+  }
+  const SurveyRides rides = ride_survey(track.centerline, survey, track.motion.body(), design.gravity);
+  for (const Figure& figure : survey_figures(track, survey, rides, {})) {
+    CAPTURE(figure.title);
+    // Tolerances above and below are of one look and name.
+    CHECK(figure.lines.size() == 2);
+    const std::string svg = figures_svg({figure});
+    CHECK(svg.find("<title></title>") == std::string::npos);
+    const std::size_t title = svg.find("<title>tolerance</title>");
+    CHECK((title != std::string::npos) == (figure.title != "Speed"));
+    if (title == std::string::npos) continue;
+    const std::size_t path = svg.rfind(" d=\"", title);
+    CHECK(count_of(svg.substr(path, title - path), "M") == 2);
+    CHECK(count_of(svg, ">tolerance<") == 2);  // it and its name in the legend
   }
   put_bytes(folder / "bad.csv", "x,y\n1,2\n");
   CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement), Contains("there is no column \"z\""));
