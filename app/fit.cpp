@@ -9,6 +9,7 @@
 #include "app/option_value.hpp"
 #include "app/summary.hpp"
 #include "app/table.hpp"
+#include "app/told_of.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -59,7 +60,8 @@ std::string resistance_text(const CommonResistance& designed) {
   const auto text = [](const std::optional<double>& value, const char* unit) {
     return value ? rounded_text(*value, 4) + unit : std::string("as each design has it");
   };
-  return "friction " + text(designed.friction, "") + ", drag " + text(designed.drag, " 1/m");
+  return "friction " + text(designed.friction, "") + (designed.friction_changes ? " along its track" : "") +
+         ", drag " + text(designed.drag, " 1/m");
 }
 
 std::string fit_summary(const std::vector<SpeedReading>& readings, const SpeedFit& fit,
@@ -102,25 +104,6 @@ std::string fit_summary(const std::vector<SpeedReading>& readings, const SpeedFi
   return text + labelled("Correlation", correlation);
 }
 
-/// The issues of a fit, with the file where they name none.
-std::vector<Issue> of_file(std::vector<Issue> issues, const std::string& file) {
-  for (Issue& issue : issues) {
-    if (issue.where.empty()) issue.where = file;
-  }
-  return issues;
-}
-
-SpeedFit fitted_to(const std::vector<SpeedReading>& readings, const SpeedFitOptions& held,
-                   const std::string& file) {
-  try {
-    return fit_speeds(readings, held);
-  } catch (const InputError& error) {
-    throw InputError(of_file(error.issues(), file));
-  } catch (const ConvergenceError& error) {
-    throw ConvergenceError(of_file(error.issues(), file));
-  }
-}
-
 ExitCode fit(const FitArguments& options) {
   std::optional<std::filesystem::path> design;
   if (!options.design.empty()) design = options.design;
@@ -135,8 +118,9 @@ ExitCode fit(const FitArguments& options) {
     if (value && *value < 0.0)
       throw InputError({name, rounded_text(*value, 4) + " is negative", "", "0 or more"});
   }
-  const SpeedFit fitted = fitted_to(readings, held, options.speeds);
-  const std::vector<SpeedResidual> as_designed = speed_residuals(readings);
+  const SpeedFit fitted = told_of(options.speeds, [&] { return fit_speeds(readings, held); });
+  const std::vector<SpeedResidual> as_designed =
+      told_of(options.speeds, [&] { return speed_residuals(readings); });
   print(options.json ? fit_json(readings, fitted, as_designed)
                      : fit_summary(readings, fitted, as_designed, held));
   return ExitCode::done;

@@ -15,12 +15,14 @@
 #include "app/summary.hpp"
 #include "app/table.hpp"
 #include "app/time_budget.hpp"
+#include "app/told_of.hpp"
 #include "app/track_input.hpp"
 
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -164,8 +166,11 @@ ExitCode survey(const SurveyArguments& options) {
   const SurveyOptions wanted = options_of(options);
   const Design design = options.design.read();
   const Track track = searched_track(design, options.verbosity, options.time_budget.seconds());
-  const Survey found = survey_of(*track.centerline, read_survey(options.points, track.placement), wanted);
-  const SurveyRides rides = ride_survey(track.centerline, found, track.motion.body(), design.gravity);
+  const std::vector<SurveyPoint> points = read_survey(options.points, track.placement);
+  const Survey found = told_of(options.points, [&] { return survey_of(*track.centerline, points, wanted); });
+  const SurveyRides rides = told_of(options.points, [&] {
+    return ride_survey(track.centerline, found, track.motion.body(), design.gravity);
+  });
   const auto write = [&] {
     OutputFiles files;
     files.make(options.csv, [&](const std::filesystem::path& csv) { write_survey_csv(csv, found); });

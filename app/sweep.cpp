@@ -190,7 +190,7 @@ ExitCode write_batch(const SweepArguments& options, const study::Study& study, c
   files.put_in_place();
   if (!options.verbosity.quiet()) {
     print(labelled("Batch file", file.string() + ", " + std::to_string(tasks) + " tasks") +
-              labelled("Submit it", "sbatch " + file.string() + ", where this command was given"),
+              labelled("Submit it", "sbatch " + for_shell(file.string()) + ", where this command was given"),
           "The file is written, as " + file.string() + ".");
   }
   return ExitCode::done;

@@ -4,6 +4,8 @@
 
 #include "app/table.hpp"
 
+#include <algorithm>
+
 namespace glissade::app {
 
 std::string counts_text(const std::map<study::Status, std::uint64_t>& counts) {
@@ -46,15 +48,28 @@ std::string summary_text(const study::Summary& summary) {
   return text + "\n" + table.text();
 }
 
-namespace {
-
-/// A word as a shell takes it.
 std::string for_shell(const std::string& word) {
   constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.,:=/+%-";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
   std::string text = "'";
   for (const char letter : word) text += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
   return text + "'";
+}
+
+namespace {
+
+/// The file of what a task prints, as sbatch reads it in a line of the batch file: quotes and spaces as a shell does, but a
+/// backslash takes the next character's meaning within quotes too, and Slurm replaces what follows a % (%% is one).
+/// @return beside the rows; where no line can say their directory, in the folder of the submission
+std::string log_file(const std::string& directory) {
+  const auto untellable = [](unsigned char letter) {
+    return letter == '\\' || letter < 0x20 || letter == 0x7F;
+  };
+  const std::string name = "slurm-%A_%a.log";
+  if (std::any_of(directory.begin(), directory.end(), untellable)) return name;
+  std::string text;
+  for (const char letter : directory) text += letter == '%' ? std::string("%%") : std::string(1, letter);
+  return for_shell(text + "/" + name);
 }
 
 }  // namespace
@@ -70,7 +85,7 @@ std::string batch_text(const std::vector<std::string>& arguments, const std::str
       "#SBATCH --job-name=glissade-sweep\n";
   text += "#SBATCH --array=0-" + std::to_string(tasks - 1) + "\n";
   text += "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n";
-  text += "#SBATCH --output=" + for_shell(directory + "/slurm-%A_%a.log") + "\n\n";
+  text += "#SBATCH --output=" + log_file(directory) + "\n\n";
   text += "exec \"${GLISSADE:-glissade}\"";
   for (const std::string& word : arguments) text += " " + for_shell(word);
   // Not SLURM_ARRAY_TASK_COUNT: of tasks that are submitted again it counts those alone.

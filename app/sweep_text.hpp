@@ -18,6 +18,9 @@ namespace glissade::app {
 /// @return counts by status, then how the figures that vary are spread
 [[nodiscard]] std::string summary_text(const study::Summary& summary);
 
+/// @return a word as a shell takes it, in quotes where it needs them
+[[nodiscard]] std::string for_shell(const std::string& word);
+
 /// @param arguments  of the program, without the shard
 /// @return a batch file for Slurm whose array has `tasks` shards
 [[nodiscard]] std::string batch_text(const std::vector<std::string>& arguments, const std::string& directory,

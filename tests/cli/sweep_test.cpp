@@ -186,8 +186,35 @@ TEST_CASE("sweep: --slurm writes a batch file that gives every task its shard, a
           "--scatter 'body.friction_angle=normal(17deg,1.5deg)' --samples 40000 --sampling sobol --seed 1 "
           "--frozen -o 'a sweep'"));
   CHECK_THAT(batch, Contains("--shard \"$SLURM_ARRAY_TASK_ID/8\" "));
+  CHECK_THAT(batch, Contains("#SBATCH --output='a sweep/slurm-%A_%a.log'\n"));
+  CHECK_THAT(outcome.output, Contains("sbatch 'a sweep/sweep.sbatch', where this command was given"));
   CHECK_FALSE(std::filesystem::exists(place / "a sweep/chunks"));
   CHECK(run_program("bash", {"-n", (place / "a sweep/sweep.sbatch").string()}).exit_code == 0);
+}
+
+TEST_CASE("sweep: a batch file in a directory of any name is told for a shell, its logs for Slurm") {
+  const TempDir place;
+  struct Told {
+    const char* directory;
+    const char* command;
+    const char* log;
+  };
+  for (const Told& one :
+       {Told{"s", "sbatch s/sweep.sbatch,", "--output=s/slurm-%A_%a.log\n"},
+        Told{"it's", "sbatch 'it'\\''s/sweep.sbatch',", "--output='it'\\''s/slurm-%A_%a.log'\n"},
+        Told{"50%j", "sbatch 50%j/sweep.sbatch,", "--output=50%%j/slurm-%A_%a.log\n"},
+        Told{"#1 $HOME", "sbatch '#1 $HOME/sweep.sbatch',", "--output='#1 $HOME/slurm-%A_%a.log'\n"},
+        // Slurm takes no % after a backslash for what it is.
+        Told{"a\\b", "sbatch 'a\\b/sweep.sbatch',", "--output=slurm-%A_%a.log\n"}}) {
+    CAPTURE(one.directory);
+    const Outcome outcome =
+        sweep(place, {shipped("grain_chute"), "--vary", "body.friction_angle=10deg:20deg:3", "-o",
+                      one.directory, "--slurm"});
+    INFO(outcome.errors);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.output, Contains(one.command));
+    CHECK_THAT(bytes_of(place / one.directory / "sweep.sbatch"), Contains(one.log));
+  }
 }
 
 TEST_CASE("sweep: a task of the batch file that is submitted again alone computes the shard that it had") {

@@ -659,13 +659,62 @@ TEST_CASE("no file takes the place of the one that standard output goes to") {
   }
 }
 
-TEST_CASE("fit: speeds that tell nothing apart are told with their file") {
+TEST_CASE("fit: speeds that tell nothing are told with their file, one that is wrong with its line") {
   const TempDir place;
-  put_bytes(place / "speeds.csv", "gate,speed_km_h\n1,85\n1,85\n1,85\n");
   const std::string hill = shipped("hills/garmisch_hs142");
-  const Outcome outcome = glissade_run({"fit", (place / "speeds.csv").string(), hill});
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.errors, Contains("speeds.csv: these speeds do not tell friction and drag apart"));
+  const auto told = [&](const std::string& rows, const std::string& design) {
+    put_bytes(place / "speeds.csv", "gate,speed_km_h\n" + rows);
+    const Outcome outcome = glissade_run({"fit", (place / "speeds.csv").string(), design});
+    CHECK(outcome.exit_code == 2);
+    return outcome.errors;
+  };
+  CHECK_THAT(told("1,85\n1,85\n1,85\n", hill),
+             Contains("speeds.csv: these speeds do not tell friction and drag apart"));
+  CHECK_THAT(told("1,85\n", hill), Contains("speeds.csv: 1 speed does not tell 2 parameters"));
+  CHECK_THAT(told("1,85\n1,860\n", hill),
+             Contains("speeds.csv:3: Garmisch") && Contains("is more than free fall gives"));
+  // Fitted it comes down, as it was designed it does not.
+  std::string rough = bytes_of(hill);
+  const std::string friction = "friction_coefficient: ";
+  const std::size_t at = rough.find(friction) + friction.size();
+  put_bytes(place / "rough.yaml", rough.replace(at, rough.find_first_of(",}\n", at) - at, "0.9"));
+  CHECK_THAT(told("1,85\n20,88\n49,92\n", (place / "rough.yaml").string()),
+             Contains("speeds.csv:2: Garmisch") && Contains("does not come to where its speed was measured"));
+}
+
+TEST_CASE("fit: a friction that changes along the track is told as that") {
+  const TempDir place;
+  put_bytes(
+      place / "a.yaml",
+      "glissade: 1\ntrack: {start: {x: 0 m, z: 0 m}}\n"
+      "body: {drag: 0.001 1/m, friction: [{from: 0 m, coefficient: 0.02}, {from: 50 m, coefficient: 0.2}]}\n"
+      "centerline: {kind: segments, entry_slope_angle: 35 deg, segments: [{length: 100 m}]}\n");
+  put_bytes(place / "speeds.csv",
+            "design,length_m,speed_m_per_s,before_edge_m\na.yaml,100,25,0\na.yaml,60,20,0\n");
+  const Outcome text = glissade_run({"fit", (place / "speeds.csv").string()});
+  INFO(text.errors);
+  CHECK_THAT(text.output, Contains("friction as each design has it along its track, drag 0.001 1/m"));
+  const auto told =
+      nlohmann::json::parse(glissade_run({"fit", (place / "speeds.csv").string(), "--json"}).output);
+  CHECK(told["design_friction_coefficient"] == nullptr);
+}
+
+TEST_CASE(
+    "survey: points that tell nothing are told with their file, one that lies elsewhere with its line") {
+  const TempDir place;
+  const auto told = [&](const std::string& rows) {
+    put_bytes(place / "points.csv", "name,x,z\n" + rows);
+    const Outcome outcome =
+        glissade_run({"survey", shipped("hills/garmisch_hs142"), (place / "points.csv").string()});
+    CHECK(outcome.exit_code == 2);
+    return outcome.errors;
+  };
+  CHECK_THAT(told("P1,-90,47\n"), Contains("points.csv: 1 point makes no survey"));
+  CHECK_THAT(told("P1,-90,47\n,-80,90\nP3,-70,35\nP4,-60,80\nP5,-50,21\n"),
+             Contains("points.csv:3: the point lies ") && Contains("points.csv:5: the point P4 lies "));
+  const std::string same = "P,-90.1894,47.0825\n";
+  CHECK_THAT(told(same + same + same + same + same), Contains("points.csv: 1 point makes no survey") &&
+                                                         Contains("Readings of one place are one point."));
 }
 
 TEST_CASE(

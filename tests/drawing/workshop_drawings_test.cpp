@@ -10,9 +10,12 @@
 #include "drawing/balloons.hpp"
 #include "parts/bodies/angle_bar.hpp"
 #include "support/catch.hpp"
+#include "support/random.hpp"
 #include "support/shop_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
 #include <numbers>
 #include <set>
@@ -376,6 +379,61 @@ Workshop row_of_units(int units, double step, double drop) {
                            {}}};
   return workshop;
 }
+
+}  // namespace
+
+TEST_CASE(
+    "every joint and support of the general arrangement has its name, beside the others, and a line to it") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  for (int round = 0; round < 25; ++round) {
+    Workshop workshop = row_of_units(5, 1.0, random.between(0.1, 0.5));
+    const int places = 2 + round * 2;
+    for (int i = 0; i < places; ++i) {
+      SettingOutPoint point;
+      point.what = (i % 2 == 0 ? "joint " : "support ") + std::to_string(i);
+      // Some at one place, some near the ends.
+      const double x = random.between(0.0, 1.0) < 0.3 ? (i % 4 < 2 ? 0.0 : 4.4) : random.between(0.0, 4.4);
+      point.x = x;
+      point.z = -0.2 * x;
+      workshop.setting_out.push_back(point);
+    }
+    for (int i = 0; i < 30; ++i) {
+      SettingOutPoint mitre;
+      mitre.what = "mitre " + std::to_string(i);
+      mitre.x = random.between(0.0, 4.4);
+      workshop.setting_out.push_back(mitre);
+    }
+    const SheetView view = drawing_set(workshop).front().views.front();
+    std::map<std::string, Vec2> names;
+    for (const DrawnText& text : view.drawing.texts) {
+      if (view.drawing.layers[text.layer].name == "JOINTS") CHECK(names.emplace(text.text, text.at).second);
+    }
+    for (const SettingOutPoint& point : workshop.setting_out) {
+      CAPTURE(point.what);
+      const bool named = point.what.starts_with("joint") || point.what.starts_with("support");
+      CHECK((!named || names.contains(point.what)));
+    }
+    std::vector<double> across;
+    for (const auto& [name, at] : names) {
+      across.push_back(at.x);
+      // The last of its line ends above it.
+      const bool led_to = std::any_of(view.drawing.paths.begin(), view.drawing.paths.end(),
+                                      [&, x = at.x, y = at.y](const DrawnPath& drawn) {
+                                        const Vec2 end = drawn.path.vertices.back().at;
+                                        return view.drawing.layers[drawn.layer].name == "JOINTS" &&
+                                               std::fabs((x - end.x) * view.scale - 1.25) < 1e-6 &&
+                                               std::fabs((end.y - y) * view.scale - 1.0) < 1e-6;
+                                      });
+      CHECK(led_to);
+    }
+    std::sort(across.begin(), across.end());
+    for (std::size_t i = 1; i < across.size(); ++i)
+      CHECK((across[i] - across[i - 1]) * view.scale > 3.5 - 1e-6);
+  }
+}
+
+namespace {
 
 /// Lines from numbers to parts, with the balloons in which they begin.
 struct Pointed {

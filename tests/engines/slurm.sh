@@ -72,13 +72,14 @@ values=500 tasks=8 # a task has a chunk of 1000 rows; continuous integration has
 vary=(--set centerline.kind=straight --vary "body.friction_angle=10deg:25deg:$values" --vary track.finish.z=0m:1.5m:16)
 "$program" sweep "$design" "${vary[@]}" -o one --quiet || exit 1
 "$program" sweep --merge one -o one.csv --quiet || exit 1
-"$program" sweep "$design" "${vary[@]}" -o many --slurm --quiet || exit 1
+many="all %j's" # quotes, spaces and replacements of Slurm in the names of logs
+"$program" sweep "$design" "${vary[@]}" -o "$many" --slurm --quiet || exit 1
 # What sbatch --wait asks less and less often, up to every half minute.
-job=$(GLISSADE=$program sbatch --export=ALL --parsable many/sweep.sbatch) || exit 1
+job=$(GLISSADE=$program sbatch --export=ALL --parsable "$many/sweep.sbatch") || exit 1
 while squeue --noheader --jobs "$job" 2>/dev/null | grep -q .; do sleep 0.2; done
 scontrol --oneliner show job "$job" >jobs || exit 1
-[ "$(grep -c 'JobState=COMPLETED' jobs)" -eq $tasks ] || { cat jobs many/slurm-*.log; exit 1; }
-"$program" sweep --merge many -o many.csv --quiet || exit 1
+[ "$(grep -c 'JobState=COMPLETED' jobs)" -eq $tasks ] || { cat jobs "$many"/slurm-*.log; exit 1; }
+"$program" sweep --merge "$many" -o many.csv --quiet || exit 1
 cmp one.csv many.csv || { echo "the rows differ"; exit 1; }
-[ "$(ls many/slurm-*.log | wc -l)" -eq $tasks ] || { echo "not $tasks tasks"; exit 1; }
+[ "$(ls "$many"/slurm-*.log | wc -l)" -eq $tasks ] || { echo "not $tasks tasks"; exit 1; }
 echo "$tasks tasks of Slurm gave the $(($(wc -l <one.csv) - 1)) rows of one process, byte for byte"

@@ -1,6 +1,7 @@
 // From a design with `fabrication` to everything that a workshop gets.
 
 #include "glissade/core/error.hpp"
+#include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/dxf_file.hpp"
 #include "glissade/io/mesh_file.hpp"
 #include "glissade/io/step_file.hpp"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -143,6 +145,29 @@ TEST_CASE("fabrication: every ordinate that is set out is that from the chord of
   CHECK(ordinates_from_their_chords(workshop_of(pipe), "mitre") > 3);
   const Workshop printed = workshop_of(read_design(designs_path("marble_run_printed.yaml")));
   CHECK(ordinates_from_their_chords(printed, "stand ") > 3);
+}
+
+TEST_CASE("fabrication: the general arrangement names every joint and support of every shipped design") {
+  std::size_t places = 0;
+  for (const char* const name :
+       {"coal_chute_fabricated", "grain_chute_fabricated", "grain_chute_with_limits_bent",
+        "marble_run_printed", "ore_transfer_fabricated", "powder_chute_mitred", "sand_ski_ramp_in_timber",
+        "ski_jump_inrun_in_timber"}) {
+    CAPTURE(name);
+    const Design design = read_design(designs_path(std::string(name) + ".yaml"));
+    const Workshop workshop = assemble(design, solve(design), {}, {.report = false}).fabrication->workshop;
+    std::set<std::string> told;
+    for (const DrawnText& text : drawing_set(workshop).front().views.front().drawing.texts)
+      told.insert(text.text);
+    for (const SettingOutPoint& point : workshop.setting_out) {
+      const std::string what = point.what.substr(0, point.what.find_first_of(",:"));
+      if (!what.starts_with("joint") && !what.starts_with("support")) continue;
+      CAPTURE(point.what);
+      CHECK(told.contains(what));
+      ++places;
+    }
+  }
+  CHECK(places > 20);
 }
 
 TEST_CASE("fabrication: every piece that is cut lies on one sheet of its thickness, holes and all") {

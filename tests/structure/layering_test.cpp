@@ -108,7 +108,7 @@ const std::map<std::string, std::vector<std::string>> kFolders = {
      {"algebra", "discretise", "problem", "descent", "mesh", "search", "conflicts", "prices", "answer",
       "least_bound"}},
     {"parts", {"curves", "bodies", "shop", "plates", "supports", "strips", "tubes", "timber", "prints"}},
-    {"pipeline", {"task", "ride", "rules", "drawings", "files", "build"}},
+    {"pipeline", {"task", "ride", "rules", "redesign", "drawings", "files", "build"}},
 };
 
 /// @return what breaks the order of folders in one file of a module; `path` is relative to the project

@@ -180,6 +180,7 @@ TEST_CASE("hills whose bodies, winds and gravities differ are told apart, in wha
   CHECK(common_resistance({changing}).friction == changing.body.friction.coefficient());
   changing.body.friction_changes = {{1.0, Friction::from_coefficient(0.2)}};
   CHECK_FALSE(common_resistance({changing}).friction);
+  CHECK(common_resistance({changing}).friction_changes);
   CHECK(common_resistance({changing}).drag == changing.body.drag_per_metre);
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const Motion ride(readings[i].track, readings[i].body, readings[i].gravity);
@@ -312,8 +313,9 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
   CHECK_THAT(problem_of("x,z\n1,85\n"), Contains("there is no column \"design\"") &&
                                             Contains("there is no column \"length_m\"") &&
                                             Contains("there is no column \"speed_m_per_s\""));
-  CHECK_THAT(problem_of("design,gate,speed_km_h\n,1,85\n"),
-             Contains("speeds.csv:2: there is no design in the column design"));
+  CHECK_THAT(
+      problem_of("design,gate,speed_km_h\n,1,85\n"),
+      Contains("speeds.csv:2: no design is named") && Contains("Try: a design file in the column design"));
   CHECK_THAT(problem_of("gate,speed_km_h\n1,fast\n", "hills/garmisch_hs142.yaml"), Contains("is no number"));
   const std::string hill = "hills/garmisch_hs142.yaml";
   for (const char* const nothing :
@@ -331,8 +333,10 @@ TEST_CASE("lines of speeds that do not belong to their hill are told with line, 
   CHECK_THAT(problem_of("gate,length_m,speed_km_h\n1,90,85\n", hill),
              Contains("it has the columns gate and length_m"));
   testing::Random random = testing::seeded_random();
-  CHECK_THROWS_WITH(fit_speeds({readings_of(skier(0.03, 0.001), 0.0, random).front()}),
-                    Contains("1 speeds do not tell 2 parameters"));
+  CHECK_THROWS_WITH(
+      fit_speeds({readings_of(skier(0.03, 0.001), 0.0, random).front()}),
+      Contains("1 speed does not tell 2 parameters") && Contains("Try: speeds from several gates; or"));
+  CHECK_THROWS_WITH(fit_speeds({}, {0.03, std::nullopt}), Contains("0 speeds do not tell 1 parameter\n"));
 }
 
 TEST_CASE("a speed far beyond free fall is told as that, unless a wind from behind may have given it") {

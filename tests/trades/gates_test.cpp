@@ -10,11 +10,13 @@
 #include "support/random.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gates_test {
@@ -365,6 +367,26 @@ TEST_CASE("the gate for a speed lies between those that are slower and faster") 
   CHECK(*gate_for_speed(rides, between) == Approx(11.5).epsilon(1e-9));
   CHECK_FALSE(gate_for_speed(rides, 10.0).has_value());
   CHECK_FALSE(gate_for_speed(rides, 40.0).has_value());
+}
+
+TEST_CASE("suggested K points are of the class of their hill size, and grow with it") {
+  // IWO 411.1: small up to HS 49 and K 44, medium to 84 and 74, normal to 109 and 99, large, flying from 185 and 170 on.
+  const auto class_of = [](double value, const std::array<double, 4>& from) {
+    return std::count_if(from.begin(), from.end(), [&](double one) { return value >= one; });
+  };
+  double before = 0.0;
+  for (int half_metres = 20; half_metres <= 520; ++half_metres) {
+    const double hill_size = 0.5 * half_metres;
+    CAPTURE(hill_size);
+    const double point = suggested_in_run(hill_size).construction_point;
+    CHECK(class_of(point, {45.0, 75.0, 100.0, 170.0}) == class_of(hill_size, {50.0, 85.0, 110.0, 185.0}));
+    CHECK(point >= before);
+    CHECK(point < hill_size);
+    before = point;
+  }
+  for (const auto& [size, certified] :
+       {std::pair{38.0, 35.0}, {66.0, 60.0}, {97.0, 90.0}, {106.0, 95.0}, {140.0, 125.0}, {240.0, 200.0}})
+    CHECK(suggested_in_run(size).construction_point == certified);
 }
 
 TEST_CASE("suggested sizes hold the rules that they come from, for every hill") {

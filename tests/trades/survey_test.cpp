@@ -4,6 +4,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/pipeline.hpp"
 #include "glissade/pipeline/surveys.hpp"
+#include "glissade/report/figure.hpp"
 
 #include "support/catch.hpp"
 #include "support/paths.hpp"
@@ -46,6 +47,12 @@ std::vector<SurveyPoint> points_on(const Centerline& track, double from, double 
                       at.drop - up * std::cos(at.slope_angle), 0.002});
   }
   return points;
+}
+
+std::size_t count_of(const std::string& text, const std::string& what) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++count;
+  return count;
 }
 
 std::string problem_of(const std::vector<SurveyPoint>& points, const SurveyOptions& options = {}) {
@@ -201,7 +208,7 @@ TEST_CASE(
   std::vector<SurveyPoint> none;
   for (int i = 0; i < 6; ++i) none.push_back(off(track->at(track->length()), 0.1 + 0.1 * i));
   CHECK_THROWS_WITH(ride_survey(track, survey_of(*track, none), skier(), 9.81),
-                    Contains("points: they lie before the start of the track or beyond its end"));
+                    Contains("the points lie before the start of the track or beyond its end"));
 }
 
 TEST_CASE("below the first point of a survey friction is that of the place, and no impact is met again") {
@@ -234,10 +241,14 @@ TEST_CASE(
   CHECK_THAT(text, Contains("beyond: the point lies") && Contains("beyond the end of the track"));
   CHECK_THAT(text, Contains("Points within 1 m of the profile belong to it.") &&
                        Contains("Try: points of this track"));
+  points[4].source = "s.csv:6";
+  points[9].name = points[9].source = "s.csv:11";
+  CHECK_THAT(problem_of(points),
+             Contains("s.csv:6: the point p5 lies 2.4") && Contains("s.csv:11: the point lies 2.5 m beside"));
   CHECK_THAT(problem_of({points[0], points[1]}), Contains("2 points make no survey"));
   SurveyOptions none;
   none.tolerance = 0.0;
-  CHECK_THAT(problem_of(points, none), Contains("--tolerance") && Contains("is not positive"));
+  CHECK_THAT(problem_of(points, none), Contains("--tolerance: 0 mm is not positive"));
 }
 
 TEST_CASE("a survey in site coordinates is turned into the plane of a track that leads anywhere") {
@@ -262,6 +273,20 @@ TEST_CASE("a survey in site coordinates is turned into the plane of a track that
   for (const SurveyedPlace& place : survey.places) {
     CHECK(std::fabs(place.deviation) < 2e-6);
     CHECK(std::fabs(place.aside - 0.05) < 2e-6);
+  }
+  const SurveyRides rides = ride_survey(track.centerline, survey, track.motion.body(), design.gravity);
+  for (const Figure& figure : survey_figures(track, survey, rides, {})) {
+    CAPTURE(figure.title);
+    // Tolerances above and below are of one look and name.
+    CHECK(figure.lines.size() == 2);
+    const std::string svg = figures_svg({figure});
+    CHECK(svg.find("<title></title>") == std::string::npos);
+    const std::size_t title = svg.find("<title>tolerance</title>");
+    CHECK((title != std::string::npos) == (figure.title != "Speed"));
+    if (title == std::string::npos) continue;
+    const std::size_t path = svg.rfind(" d=\"", title);
+    CHECK(count_of(svg.substr(path, title - path), "M") == 2);
+    CHECK(count_of(svg, ">tolerance<") == 2);  // it and its name in the legend
   }
   put_bytes(folder / "bad.csv", "x,y\n1,2\n");
   CHECK_THROWS_WITH(read_survey(folder / "bad.csv", track.placement), Contains("there is no column \"z\""));

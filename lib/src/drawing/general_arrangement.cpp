@@ -149,36 +149,101 @@ std::vector<std::pair<Vec2, Vec2>> clear_of_length(Vec2 from, double low, const 
   return {{from, {from.x, top}}, {{from.x, line}, to}};
 }
 
-/// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn. Of names
-/// that would lie across one another the first is told, mitres last; the setting-out table has all.
+constexpr double kNamesApart = 3.5;  // names below the view, on paper [mm]
+
+/// Names side by side, each as near to its place as the others let it be.
+/// @param at  their places, from left to right
+/// @param low, high  where names stand; there is room for all
+std::vector<double> beside_one_another(const std::vector<double>& at, double apart, double low, double high) {
+  struct Row {
+    double first;  // where its first name is
+    std::size_t names;
+  };
+  std::vector<Row> rows;
+  const auto place = [&](Row row) {
+    return Row{std::clamp(row.first, low, std::max(low, high - apart * static_cast<double>(row.names - 1))),
+               row.names};
+  };
+  for (const double one : at) {
+    rows.push_back(place({one, 1}));
+    while (rows.size() > 1) {
+      const Row& before = rows[rows.size() - 2];
+      const Row& last = rows.back();
+      if (last.first - before.first >= apart * static_cast<double>(before.names)) break;
+      // Together in the middle of what they name.
+      const auto held = static_cast<double>(before.names);
+      const auto more = static_cast<double>(last.names);
+      const double first = (held * before.first + more * (last.first - held * apart)) / (held + more);
+      const Row both = place({first, before.names + last.names});
+      rows.pop_back();
+      rows.back() = both;
+    }
+  }
+  std::vector<double> names;
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.names; ++i) names.push_back(row.first + apart * static_cast<double>(i));
+  }
+  return names;
+}
+
+/// All places but mitres, moved to be apart; of more than there is room for the first of those that are near to one another.
+/// Mitres, of which there are many, where all others leave their place free.
+/// @param low, high  of the names [mm]
+/// @return each with where its name is, across
+std::vector<std::pair<MarkedPlace, double>> named_below(std::vector<MarkedPlace> places, double apart,
+                                                        double low, double high) {
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.at.x < b.at.x; });
+  const auto mitres = std::stable_partition(places.begin(), places.end(), [](const MarkedPlace& place) {
+    return !place.what.starts_with("mitre");
+  });
+  std::vector<MarkedPlace> told(places.begin(), mitres);
+  const auto too_near = [&](const MarkedPlace& a, const MarkedPlace& b) { return b.at.x - a.at.x < apart; };
+  if (static_cast<double>(told.size()) * apart > high - low)
+    told.erase(std::unique(told.begin(), told.end(), too_near), told.end());
+  std::vector<double> at;
+  for (const MarkedPlace& place : told) at.push_back(place.at.x);
+  const std::vector<double> names = beside_one_another(at, apart, low, high);
+  std::vector<std::pair<MarkedPlace, double>> named;
+  for (std::size_t i = 0; i < told.size(); ++i) named.emplace_back(told[i], names[i]);
+  for (auto place = mitres; place != places.end(); ++place) {
+    const auto in_the_way = [&](const auto& one) {
+      const auto [from, to] = std::minmax(one.first.at.x, one.second);
+      return place->at.x > from - apart && place->at.x < to + apart;
+    };
+    if (std::none_of(named.begin(), named.end(), in_the_way)) named.emplace_back(*place, place->at.x);
+  }
+  return named;
+}
+
+/// Ends, joints and supports: a chain line down from each to its name below the view, where nothing else is drawn, the last of
+/// it aslant where names would lie across one another. Mitres where others leave room; the setting-out table has all.
 /// @param whole  what all sheets together show
+/// @param paper  that names may take [mm of paper]
 void add_marks(SheetView& view, const Workshop& workshop, const Eye& eye, const PlaneBox& seen,
-               const PlaneBox& whole) {
+               const PlaneBox& whole, const PlaneBox& paper) {
   const double per_paper = 1.0 / view.scale;
   constexpr double kBelow = 12.0;  // of the names, with room for a dimension above them, on paper [mm]
-  constexpr double kApart = 3.5;   // names, on paper [mm]
+  constexpr double kAslant = 2.5;  // of a line to a name that is moved, on paper [mm]
+  constexpr double kEdge = 2.0;    // taste: names keep from the edge of the paper [mm]
   std::vector<MarkedPlace> places = marked_places(workshop, whole, eye);
   if (seen.low.x > whole.low.x)
     std::erase_if(places, [&](const MarkedPlace& place) { return place.at.x < seen.low.x; });
   if (seen.high.x < whole.high.x)
     std::erase_if(places, [&](const MarkedPlace& place) { return place.at.x > seen.high.x; });
-  // Mitres, of which there are many, leave the room to all others.
-  const auto later = [](const MarkedPlace& place) { return place.what.starts_with("mitre"); };
-  std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
-    return std::pair(later(a), a.at.x) < std::pair(later(b), b.at.x);
-  });
+  const auto on_drawing = [&](double x) { return view.anchor.x + (x - view.at.x) * per_paper; };
   const std::size_t layer = view.drawing.layer({"JOINTS", LineStyle::chain, 0.18, 1});
   const double low = seen.low.y - kBelow * per_paper;
-  std::vector<double> taken;
-  for (const MarkedPlace& place : places) {
-    const auto near = [&](double x) { return std::fabs(place.at.x - x) < kApart * per_paper; };
-    if (std::any_of(taken.begin(), taken.end(), near)) continue;
-    taken.push_back(place.at.x);
-    for (const auto& [from, to] : clear_of_length(place.at, low, seen, per_paper))
+  for (const auto& [place, x] :
+       named_below(std::move(places), kNamesApart * per_paper, on_drawing(paper.low.x + kEdge),
+                   on_drawing(paper.high.x - kEdge))) {
+    const double bend = x == place.at.x ? low : low + kAslant * per_paper;
+    for (const auto& [from, to] : clear_of_length(place.at, bend, seen, per_paper))
       view.drawing.line(layer, from, to);
+    if (bend != low) view.drawing.line(layer, {place.at.x, bend}, {x, low});
     DrawnText text;
     text.layer = layer;
-    text.at = {place.at.x + 1.25 * per_paper, low - 1.0 * per_paper};
+    text.at = {x + 1.25 * per_paper, low - 1.0 * per_paper};
     text.text = place.what.substr(0, place.what.find_first_of(",:"));
     text.angle = Angle::from_degrees(90.0);
     text.anchor = TextAnchor::right;
@@ -286,7 +351,7 @@ Sheet arrangement_sheet(const Workshop& workshop, std::string title, const Plane
   from_side.scale = from_above.scale = std::min(from_side.scale, from_above.scale);
   const Eye eye = eye_beside(workshop);
   const bool numbered = add_balloons(from_side, workshop, eye, beside, room);
-  add_marks(from_side, workshop, eye, beside, whole != nullptr ? *whole : beside);
+  add_marks(from_side, workshop, eye, beside, whole != nullptr ? *whole : beside, room);
   add_sizes(from_side, beside, numbered, from_above, above);
   sheet.views = {std::move(from_side), std::move(from_above)};
   return sheet;

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace glissade {
@@ -47,7 +48,8 @@ std::vector<SurveyPoint> read_survey(const std::filesystem::path& file, const Pl
     const double y = columns.has("y") ? columns.number(row, "y") - start.y : 0.0;
     SurveyPoint point;
     const std::string name = columns.text(row, "name");
-    point.name = name.empty() ? columns.place(row) : name;
+    point.source = columns.place(row);
+    point.name = name.empty() ? point.source : name;
     point.run = columns.has("y") ? x * math::cos(azimuth) + y * math::sin(azimuth) : x / math::cos(azimuth);
     point.aside = columns.has("y") ? y * math::cos(azimuth) - x * math::sin(azimuth) : 0.0;
     point.drop = start.z - columns.number(row, "z");
@@ -78,10 +80,11 @@ void write_survey_csv(const std::filesystem::path& file, const Survey& survey) {
 
 namespace {
 
-/// A bound on both sides, as dashed lines from end to end.
+/// A bound on both sides, dashed from end to end: one line that is interrupted, with one name.
 void add_bound(Figure& figure, double length, double bound, const std::string& name) {
-  figure.lines.push_back({name, {0.0, length}, {bound, bound}, true});
-  figure.lines.push_back({"", {0.0, length}, {-bound, -bound}, true});
+  constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
+  figure.lines.push_back(
+      {name, {0.0, length, kBreak, 0.0, length}, {bound, bound, kBreak, -bound, -bound}, true});
 }
 
 FigureLine speed_line(const std::string& name, const Motion& motion, double from, double to, bool dashed) {

@@ -20,7 +20,7 @@ constexpr std::size_t kFewestPoints = 5;
 void require_options(const SurveyOptions& options) {
   const auto positive = [](double value, const char* name, const std::string& text) {
     if (value > 0.0 && std::isfinite(value)) return;
-    throw InputError({"", std::string(name) + ": " + text + " is not positive and finite", "", ""});
+    throw InputError({name, text + " is not positive and finite", "", ""});
   };
   positive(options.tolerance, "--tolerance", length_text(options.tolerance));
   positive(options.slope_tolerance.radians(), "--slope-tolerance", angle_text(options.slope_tolerance));
@@ -34,6 +34,24 @@ struct Foot {
   double above = 0.0;   ///< square to the profile
   double beyond = 0.0;  ///< along the tangent, beyond an end; 0 between them
 };
+
+/// @param why  so few, as a sentence and a space
+void require_enough(std::size_t points, const std::string& why) {
+  if (points >= kFewestPoints) return;
+  throw InputError({"", core::counted(points, "point") + (points == 1 ? " makes" : " make") + " no survey",
+                    why + "Slope and radius as built need at least " + std::to_string(kFewestPoints) + ".",
+                    "a point every 2 m along the track"});
+}
+
+/// Where a message leads to: the line of its file, or the name of a point that comes from none.
+std::string place_of(const SurveyPoint& point) {
+  return point.source.empty() ? point.name : point.source;
+}
+
+/// What a message calls a point whose place it begins with.
+std::string called(const SurveyPoint& point) {
+  return place_of(point) == point.name ? "the point" : "the point " + point.name;
+}
 
 class FootFinder {
  public:
@@ -99,15 +117,15 @@ std::vector<std::pair<Foot, SurveyPoint>> footed(const Centerline& design,
     const Foot foot = finder.of(point);
     const double off = foot.above - options.height;
     if (std::fabs(foot.beyond) > options.reach) {
-      issues.push_back({point.name,
-                        "the point lies " + length_text(std::fabs(foot.beyond)) +
+      issues.push_back({place_of(point),
+                        called(point) + " lies " + length_text(std::fabs(foot.beyond)) +
                             (foot.beyond < 0.0 ? " before the start" : " beyond the end") + " of the track",
                         "Points within " + length_text(options.reach) + " of the profile belong to it.",
                         hint});
     } else if (std::fabs(off) > options.reach || std::fabs(point.aside) > options.reach) {
       const bool beside = std::fabs(off) <= options.reach;
-      issues.push_back({point.name,
-                        "the point lies " + length_text(std::fabs(beside ? point.aside : off)) +
+      issues.push_back({place_of(point),
+                        called(point) + " lies " + length_text(std::fabs(beside ? point.aside : off)) +
                             (beside      ? " beside"
                              : off > 0.0 ? " above"
                                          : " below") +
@@ -175,15 +193,10 @@ void add_worst(const SurveyOptions& options, Survey& survey) {
 Survey survey_of(const Centerline& design, const std::vector<SurveyPoint>& points,
                  const SurveyOptions& options) {
   require_options(options);
-  if (points.size() < kFewestPoints) {
-    throw InputError(
-        {"points",
-         core::counted(points.size(), "point") + (points.size() == 1 ? " makes" : " make") + " no survey",
-         "Slope and radius as built need at least " + std::to_string(kFewestPoints) + ".",
-         "a point every 2 m along the track"});
-  }
+  require_enough(points.size(), "");
   const std::vector<std::pair<Foot, SurveyPoint>> feet = footed(design, points, options);
   std::vector<Vec2> moved = on_track(design, feet, options.height);
+  require_enough(moved.size(), "Readings of one place are one point. ");
   const Vec2 first = moved.front();
   Survey survey;
   survey.as_built = std::make_shared<const FittedProfile>(std::move(moved));
@@ -214,8 +227,8 @@ void require_ridden(const Survey& survey, double from, double to) {
   const double built = survey.as_built->length() - survey.before_start - survey.beyond_end;
   if (to > from && built > 0.0) return;
   throw InputError(
-      {"points",
-       "they lie before the start of the track or beyond its end, and none of it between two of them",
+      {"",
+       "the points lie before the start of the track or beyond its end, and none of it between two of them",
        "Both rides are on what lies between the first point and the last.", "points along the track"});
 }
 

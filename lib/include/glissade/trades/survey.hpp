@@ -15,10 +15,11 @@ namespace glissade {
 
 /// A point that was measured on a track that stands.
 struct SurveyPoint {
-  std::string name;    ///< for messages: the line of its file, or its own name
-  double run = 0.0;    ///< in the plane of the track, from its start [m]
-  double drop = 0.0;   ///< [m], positive down
-  double aside = 0.0;  ///< to the left of that plane [m]
+  std::string name;         ///< its own, or the line of its file
+  double run = 0.0;         ///< in the plane of the track, from its start [m]
+  double drop = 0.0;        ///< [m], positive down
+  double aside = 0.0;       ///< to the left of that plane [m]
+  std::string source = {};  ///< "points.csv:7", for messages; empty if it comes from no file
 };
 
 /// How a survey is held against its design.

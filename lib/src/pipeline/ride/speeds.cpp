@@ -16,6 +16,8 @@
 namespace glissade {
 namespace {
 
+constexpr const char* kDesignHint =
+    "a design file in the column design, or one for all rows beside the file of speeds";
 constexpr const char* kExample = "design,length_m,speed_km_h; or gate in the place of length_m";
 
 /// A hill whose track is made once.
@@ -32,7 +34,7 @@ class Reader {
     by_gate_ = columns_.has("gate");
     in_kilometres_ = columns_.has("speed_km_h");
     std::vector<CsvColumns::Required> required;
-    if (!design) required.push_back({"design", "design, or the option that names one for all rows"});
+    if (!design) required.push_back({"design", kDesignHint});
     if (!by_gate_) required.push_back({"length_m", kExample});
     if (!in_kilometres_) required.push_back({"speed_m_per_s", kExample});
     columns_.require(required);
@@ -72,8 +74,8 @@ class Reader {
   [[nodiscard]] const Hill& hill_of(std::size_t row) {
     const std::string name = columns_.text(row, "design");
     if (name.empty() && !design_) {
-      throw InputError({columns_.place(row), "there is no design in the column design", "",
-                        "a design file there, or the option that names one for all rows"});
+      throw InputError({columns_.place(row), "no design is named",
+                        "A speed is ridden on the in-run of its design.", kDesignHint});
     }
     const std::filesystem::path path = name.empty() && design_ ? *design_ : folder_ / name;
     const auto known = hills_.find(path.string());
@@ -115,7 +117,8 @@ class Reader {
 
   [[nodiscard]] SpeedReading reading_of(std::size_t row, const Hill& hill) const {
     SpeedReading reading;
-    reading.name = hill.design.name.empty() ? columns_.place(row) : hill.design.name;
+    reading.source = columns_.place(row);
+    reading.name = hill.design.name.empty() ? reading.source : hill.design.name;
     reading.track = hill.track;
     reading.body = body_of(hill.design);
     reading.gravity = hill.design.gravity;

@@ -6,6 +6,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/trades/ski_jump/gates.hpp"
 
+#include "core/counted.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,7 +33,7 @@ Body with(Body body, double friction, double drag) {
 void require_tracks(const std::vector<SpeedReading>& readings) {
   for (const SpeedReading& reading : readings) {
     if (reading.track != nullptr) continue;
-    throw InputError({"", reading.name + ": the reading has no track",
+    throw InputError({reading.source, reading.name + ": the reading has no track",
                       "A speed was measured somewhere on an in-run.", "the in-run that was ridden"});
   }
 }
@@ -48,7 +50,7 @@ std::optional<double> speed_where_measured(const SpeedReading& reading, const Bo
 double speed_of(const SpeedReading& reading, const Body& body) {
   const std::optional<double> speed = speed_where_measured(reading, body);
   if (speed) return *speed;
-  throw InputError({"",
+  throw InputError({reading.source,
                     reading.name + ": with a friction coefficient of " +
                         rounded_text(body.friction.coefficient(), 3) + " and a drag of " +
                         rounded_text(body.drag_per_metre, 3) +
@@ -66,7 +68,7 @@ void require_below_free_fall(const SpeedReading& reading) {
   const double most =
       std::sqrt(std::max(body.entry_speed * body.entry_speed + 2.0 * reading.gravity * drop, 0.0));
   if (body.head_wind < 0.0 || reading.speed <= kBeyond * most) return;
-  throw InputError({"",
+  throw InputError({reading.source,
                     reading.name + ": " + rounded_text(reading.speed, 4) +
                         " m/s is more than free fall gives, " + rounded_text(most, 4) + " m/s",
                     "Between the gate and that place the body falls by " + length_text(drop, 4) + ".",
@@ -76,11 +78,13 @@ void require_below_free_fall(const SpeedReading& reading) {
 
 void require_readings(const std::vector<SpeedReading>& readings, std::size_t parameters) {
   if (readings.size() < parameters) {
-    throw InputError({"",
-                      std::to_string(readings.size()) + " speeds do not tell " + std::to_string(parameters) +
-                          " parameters",
-                      "There are at least as many speeds as parameters.",
-                      "one of the two held at a known value"});
+    const char* more = "speeds from several gates";
+    throw InputError(
+        {"",
+         core::counted(readings.size(), "speed") + (readings.size() == 1 ? " does" : " do") + " not tell " +
+             core::counted(parameters, "parameter"),
+         "There are at least as many speeds as parameters.",
+         parameters == 1 ? more : std::string(more) + "; or one of the two held at a known value"});
   }
   require_tracks(readings);
   for (const SpeedReading& reading : readings) {
@@ -91,7 +95,7 @@ void require_readings(const std::vector<SpeedReading>& readings, std::size_t par
       continue;
     }
     throw InputError(
-        {"",
+        {reading.source,
          reading.name + ": " +
              (in_place ? "the speed, " + rounded_text(reading.speed, 4) + " m/s, is not positive"
                        : "speed was measured " + length_text(reading.place) +
@@ -298,7 +302,9 @@ CommonResistance common_resistance(const std::vector<SpeedReading>& readings) {
             const bool one = body.friction_changes.empty();
             return one ? std::optional<double>(body.friction.coefficient()) : std::nullopt;
           }),
-          common([](const Body& body) { return std::optional<double>(body.drag_per_metre); })};
+          common([](const Body& body) { return std::optional<double>(body.drag_per_metre); }),
+          std::any_of(readings.begin(), readings.end(),
+                      [](const SpeedReading& reading) { return !reading.body.friction_changes.empty(); })};
 }
 
 double rms_of(const std::vector<SpeedResidual>& residuals) {

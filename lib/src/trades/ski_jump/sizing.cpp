@@ -1,5 +1,6 @@
 // Design speed and K point follow the hill size as they do in certificates: v0 is where 4 t and sqrt(r1/0.14) agree
-// (Rasnov HS38, Predazzo HS66, Rasnov HS97, Almaty HS106 and HS140, Vikersund HS240), the K point that of the same hills.
+// (Rasnov HS38, Predazzo HS66, Rasnov HS97, Almaty HS106 and HS140, Vikersund HS240), the K point that of the same hills,
+// within the class of the hill size (IWO 411.1).
 
 #include "glissade/trades/ski_jump/sizing.hpp"
 
@@ -10,9 +11,11 @@
 #include "glissade/core/quantity.hpp"
 #include "glissade/motion/motion.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 namespace glissade {
@@ -47,6 +50,28 @@ double interpolated(double hill_size, Value value, double power_below) {
   const Certificate& above = kCertificates[i];
   const double part = (hill_size - below.hill_size) / (above.hill_size - below.hill_size);
   return value(below) + part * (value(above) - value(below));
+}
+
+/// Hills from a size on, and the K points of their class.
+struct HillClass {
+  double smallest;
+  double lowest_point;
+  double highest_point;
+};
+
+/// The K point by certificates, in the class that the hill size has: in between they know nothing of its ends.
+double construction_point_of(double hill_size) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr std::array<HillClass, 5> kClasses = {{{0.0, 0.0, 44.0},
+                                                  {50.0, 45.0, 74.0},
+                                                  {85.0, 75.0, 99.0},
+                                                  {110.0, 100.0, 169.0},
+                                                  {185.0, 170.0, kNone}}};
+  std::size_t i = kClasses.size() - 1;
+  while (hill_size < kClasses[i].smallest) --i;
+  const double as_certified = interpolated(
+      hill_size, [](const Certificate& of) { return of.construction_point; }, 1.0);
+  return std::clamp(std::round(as_certified), kClasses[i].lowest_point, kClasses[i].highest_point);
 }
 
 double alpha_deg(double hill_size) {
@@ -98,8 +123,7 @@ InRunSizes suggested_in_run(double hill_size) {
   sizes.design_speed =
       0.1 * std::round(10.0 * interpolated(
                                   hill_size, [](const Certificate& of) { return of.design_speed; }, 0.5));
-  sizes.construction_point = std::round(interpolated(
-      hill_size, [](const Certificate& of) { return of.construction_point; }, 1.0));
+  sizes.construction_point = construction_point_of(hill_size);
   sizes.gamma = Angle::from_degrees(hill_size < 50.0 ? 32.0 : 35.0);
   sizes.alpha = Angle::from_degrees(alpha_deg(hill_size));
   sizes.r1 = rounded_up(0.14 * sizes.design_speed * sizes.design_speed, 0.5);

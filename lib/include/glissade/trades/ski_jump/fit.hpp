@@ -20,6 +20,7 @@ struct SpeedReading {
   Body body = {};      ///< of its design, with the wind, entry speed, friction and drag of that
   double gravity = kDefaultGravity;  ///< [m/s^2]; > 0
   double count = 1.0;                ///< how many rides it is the mean of; told, not weighted by
+  std::string source = {};           ///< "speeds.csv:7", for messages; empty if it comes from no file
 };
 
 /// One reading against the fitted body.
@@ -73,6 +74,7 @@ struct SpeedFitOptions {
 struct CommonResistance {
   std::optional<double> friction;  ///< coefficient
   std::optional<double> drag;      ///< [1/m]
+  bool friction_changes = false;   ///< along the track of one of them
 };
 [[nodiscard]] CommonResistance common_resistance(const std::vector<SpeedReading>& readings);
 
