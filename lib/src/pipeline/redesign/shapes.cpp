@@ -37,7 +37,7 @@ void measure_bends(const Centerline& track, RedesignShape& shape) {
   }
 }
 
-std::string name_of(InRunTransition transition) {
+std::string transition_name(InRunTransition transition) {
   switch (transition) {
     case InRunTransition::cubic:
       return "cubic";
@@ -139,8 +139,8 @@ void add_comparisons(const InRunShape& certificate, const TakeOff& take_off, con
     if (other == certificate.transition) continue;
     InRunShape shape = certificate;
     shape.transition = other;
-    shapes.push_back(
-        lettered("its letters, " + name_of(other), take_off, [&] { return reaching(shape, take_off); }));
+    shapes.push_back(lettered("its letters, " + transition_name(other), take_off,
+                              [&] { return reaching(shape, take_off); }));
   }
   shapes.push_back(attempted("power curve (after Zanevskyy)", take_off, [&] {
     return std::make_shared<const ClothoidSpline>(power_in_run(certificate, take_off));
