@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -107,6 +108,36 @@ TEST_CASE("trestles are no farther apart than is asked for, or a note says where
   }
   CHECK(kept);
   CHECK(told);
+}
+
+TEST_CASE("trestles: braces are bolted wherever they end, two that share a place by one bolt") {
+  Random random = seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  std::size_t shared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const WorkshopBuild build = crowded(1.5, {{0.0, -random.between(6.0, 14.0)}});
+    std::map<std::string, std::size_t> braces;  // of each trestle
+    std::size_t holes = 0;
+    for (const ShopPart& part : build.workshop.parts) {
+      if (!part.name.starts_with("brace")) continue;
+      braces[part.name] += part.quantity();
+      holes += part.quantity() * part.pattern->region.holes.size();
+    }
+    REQUIRE_FALSE(braces.empty());
+    std::size_t wanted = 0;
+    for (const auto& [name, count] : braces) wanted += 2 * (count / 2 + 1);
+    std::map<std::string, std::size_t> bought;
+    for (const BoughtInItem& item : build.workshop.items) {
+      if (item.where == "braces") bought[item.name.substr(0, item.name.find(' '))] += item.quantity;
+    }
+    CAPTURE(braces.size(), holes);
+    CHECK(bought["bolt"] == wanted);
+    CHECK(bought["nut"] == wanted);
+    CHECK(bought["washer"] == 2 * wanted);
+    CHECK(holes == 2 * wanted - 4 * braces.size());
+    shared += holes - wanted;
+  }
+  CHECK(shared > 0);
 }
 
 TEST_CASE("trestles: what stands closer than is asked for shows which places are free, and they are found") {

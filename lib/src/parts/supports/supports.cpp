@@ -143,6 +143,15 @@ void add_legs(const Shell& shell, const Trestle& trestle, const Measures& measur
            {"anchor M" + std::to_string(supports.anchor), "as the ground asks", 8, "base plates"});
 }
 
+/// What holds braces to the legs: one bolt through a leg wherever braces end. Of crosses one above the other the upper end of one and the
+/// lower end of the next, on either side of a leg, share it.
+void add_brace_bolts(const Shell& shell, std::size_t crosses) {
+  constexpr std::size_t kEnds = 4;  // of a leg pair: at the lowest feet, and at the highest heads
+  const SupportOptions& supports = *shell.options.supports;
+  add_bolts(shell.workshop, supports.anchor, supports.tube + kBrace, kEnds, "braces");
+  add_bolts(shell.workshop, supports.anchor, supports.tube + 2.0 * kBrace, 2 * (crosses - 1), "braces");
+}
+
 /// A flat bar across a plane from one leg's foot to the other's head.
 void add_braces(const Shell& shell, const Trestle& trestle, const Measures& measures,
                 const std::string& number) {
@@ -162,6 +171,7 @@ void add_braces(const Shell& shell, const Trestle& trestle, const Measures& meas
   const Vec3 left = across(shell.placement);
   const Vec3 run = along(shell.placement);
   const double foot = trestle.ground + supports.grout + kBasePlate + 100e-3;
+  add_brace_bolts(shell, static_cast<std::size_t>(count));
   for (double k = 0.0; k < count; k += 1.0) {
     // One of each cross before the legs, one behind them.
     for (const double side : {1.0, -1.0}) {
