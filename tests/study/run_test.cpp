@@ -211,6 +211,27 @@ TEST_CASE("another sweep's directory is refused with what differs, and keeps its
   CHECK(merged(place.path()) == before);
 }
 
+TEST_CASE("rows without a manifest are of no sweep that is known: they are refused, and kept") {
+  const TempDir place;
+  const auto study = [] { return study_of({vary("body.friction_angle=5deg:25deg:3")}); };
+  (void)run(study(), {.directory = place.path()});
+  const std::filesystem::path manifest = place.path() / kManifestName;
+  const std::string told = bytes_of(manifest);
+  const std::string rows = bytes_of(place.path() / "chunks" / "000000.csv");
+  std::filesystem::remove(manifest);
+  CHECK_THROWS_AS(run(study(), {.directory = place.path()}), InputError);
+  CHECK_THROWS_WITH(run(study(), {.directory = place.path()}),
+                    Contains("chunks: rows lie here, and no manifest.json beside them tells of which sweep"));
+  CHECK_FALSE(std::filesystem::exists(manifest));
+  CHECK(bytes_of(place.path() / "chunks" / "000000.csv") == rows);
+  std::ofstream(manifest, std::ios::binary) << told;
+  CHECK(run(study(), {.directory = place.path()}).chunks_found == 1);
+  // An empty directory of rows, as a killed process leaves it, is begun.
+  std::filesystem::remove_all(place.path());
+  std::filesystem::create_directories(place.path() / "chunks");
+  CHECK(run(study(), {.directory = place.path()}).chunks_computed == 1);
+}
+
 TEST_CASE("a file that a design names is part of what is studied, whichever key names it") {
   const TempDir place;
   const auto put = [&](const char* name, const char* rows) {

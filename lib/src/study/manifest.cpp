@@ -144,9 +144,27 @@ std::string manifest_text(const Study& study, const std::vector<std::string>& co
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+namespace {
+
+/// A manifest is placed before any rows: where these lie without one, it has been taken away, or they were copied without it.
+void require_no_rows_alone(const fs::path& directory) {
+  std::error_code none;
+  const fs::directory_iterator first(directory / "chunks", none);
+  // Looked for once more: another process may have placed both since.
+  if (none || first == fs::directory_iterator() || text_of(directory / kManifestName)) return;
+  throw InputError(
+      {(directory / "chunks").string(),
+       "rows lie here, and no " + std::string(kManifestName) + " beside them tells of which sweep",
+       "Rows of different sweeps are not mixed, and none that are there are overwritten.",
+       "the manifest that was written with them, or another directory with -o"});
+}
+
+}  // namespace
+
 void place_manifest(const fs::path& directory, const std::string& text) {
   const fs::path file = directory / kManifestName;
   std::optional<std::string> there = text_of(file);
+  if (!there) require_no_rows_alone(directory);
   if (!there && create_exclusively(file, text)) return;
   if (!there) there = text_of(file);
   if (there == text) return;
