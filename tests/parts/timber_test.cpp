@@ -6,6 +6,7 @@
 #include "glissade/core/arc_path.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 
 #include "parts/refusals.hpp"
 #include "parts/supports/ground.hpp"
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -454,6 +456,61 @@ TEST_CASE("timber: the table of setting out has every joint of every bearer, and
     last = row.arc_length;
     REQUIRE(row.offsets.size() == 3);
   }
+}
+
+TEST_CASE("timber: whatever the slopes of both ends, every row of legs is set out where its legs stand") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  std::size_t before = 0;
+  std::size_t behind = 0;
+  for (int trial = 0; trial < 8; ++trial) {
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    const double first = random.between(-30.0, 10.0) * kDegree;
+    const double last = random.between(-10.0, 30.0) * kDegree;
+    const Vec2 middle = random.between(3.0, 5.0) * Vec2{math::cos(first), math::sin(first)};
+    const Vec2 end = random.between(3.0, 5.0) * Vec2{math::cos(last), math::sin(last)};
+    // A corner is no track: an arc that touches both lines, with tangents of 2 m.
+    const Vec2 in = middle - (2.0 / norm(middle)) * middle;
+    const Vec2 out = middle + (2.0 / norm(end)) * end;
+    const ArcSpline track(
+        {{{{0.0, 0.0}, 0.0}, {in, math::tan(0.25 * (last - first))}, {out, 0.0}, {middle + end, 0.0}},
+         false});
+    TimberOptions options;
+    options.legs = LegOptions{{{0.0, -6.0}}, random.between(1.0, 2.0), 90e-3};
+    const WorkshopBuild build = timber(track, options);
+    std::vector<double> stands;
+    for (const ShopPart* part : named(build, "leg_")) {
+      const PlaneBox box = bounds(part->pattern->region.outline);
+      for (const Frame& place : part->places) {
+        const Vec3 low = place.origin + box.low.x * place.x + box.low.y * place.y;
+        const Vec3 high = place.origin + box.high.x * place.x + box.high.y * place.y;
+        stands.push_back(0.5 * (low.x + high.x));
+      }
+    }
+    CHECK(stands.size() == 4 * rows(build, "leg "));
+    for (const SettingOutPoint& row : build.workshop.setting_out) {
+      if (!row.what.starts_with("leg ")) continue;
+      INFO(row.what << " of " << row.site.x << ", " << track.at(track.length()).x);
+      CHECK(std::count_if(stands.begin(), stands.end(),
+                          [&](double x) { return std::fabs(x - row.site.x) < 1e-9; }) >= 4);
+      CHECK(row.x == row.site.x);
+      CHECK(row.what.find("middle x " + rounded_text(row.x * 1e3, 6) + ", foot z ") != std::string::npos);
+      CHECK(row.beyond_track == (row.x < 0.0 || row.x > track.at(track.length()).x));
+      before += row.x < 0.0 ? 1U : 0U;
+      if (row.beyond_track) {
+        behind += row.x > 0.0 ? 1U : 0U;
+        CHECK(row.z == Approx(-6.0).margin(1e-12));
+        CHECK(row.site.z == row.z);
+        CHECK(std::none_of(row.offsets.begin(), row.offsets.end(),
+                           [](const std::optional<double>& level) { return level.has_value(); }));
+      } else {
+        CHECK(row.z == Approx(-track.at(row.arc_length).drop).margin(1e-12));
+        CHECK(row.x == Approx(track.at(row.arc_length).x).margin(1e-9));
+      }
+    }
+  }
+  CHECK(before > 0);
+  CHECK(behind > 0);
 }
 
 }  // namespace timber_test

@@ -112,11 +112,14 @@ SheetTable setting_out_table(const Workshop& workshop) {
     table.header.push_back(workshop.offset_names[i] + ", plumb");
   }
   for (const SettingOutPoint& point : workshop.setting_out) {
-    std::vector<std::string> row{point.what,           tabled(point.arc_length),
-                                 tabled(point.x),      tabled(point.z),
-                                 tabled(point.site.x), tabled(point.site.y),
-                                 tabled(point.site.z), fixed(point.slope_angle.degrees(), 3),
-                                 tabled(point.radius), tabled(point.ordinate)};
+    std::vector<std::string> row{point.what,          tabled(point.arc_length), tabled(point.x),
+                                 tabled(point.z),     tabled(point.site.x),     tabled(point.site.y),
+                                 tabled(point.site.z)};
+    if (point.beyond_track)
+      row.insert(row.end(), 3, "-");
+    else
+      row.insert(row.end(),
+                 {fixed(point.slope_angle.degrees(), 3), tabled(point.radius), tabled(point.ordinate)});
     for (std::size_t i = 0; i < point.offsets.size() && i < 4; ++i)
       row.push_back(point.offsets[i] ? tabled(*point.offsets[i]) : "-");
     table.rows.push_back(std::move(row));

@@ -205,8 +205,15 @@ std::string setting_out_csv(const Workshop& workshop) {
   Csv csv(header);
   for (const SettingOutPoint& point : workshop.setting_out) {
     csv.row() << point.what << mm(point.arc_length) << mm(point.x) << mm(point.z) << clean(point.site.x)
-              << clean(point.site.y) << clean(point.site.z) << degrees(point.slope_angle)
-              << percent(point.slope_angle) << mm(point.radius) << mm(point.ordinate);
+              << clean(point.site.y) << clean(point.site.z);
+    if (point.beyond_track)
+      csv << ""
+          << ""
+          << ""
+          << "";
+    else
+      csv << degrees(point.slope_angle) << percent(point.slope_angle) << mm(point.radius)
+          << mm(point.ordinate);
     for (const std::optional<double>& level : point.offsets)
       csv << (level ? exact_text(mm(*level) + 0.0) : "");
   }

@@ -250,6 +250,10 @@ struct SettingOutPoint {
   double ordinate = 0.0;    ///< distance above the chord of its segment [m]
   /// Heights z of the lines that the table follows, plumb below the place; none where such a line ends short of it [m].
   std::vector<std::optional<double>> offsets;
+  /// Whether it is of something that stands beyond an end of the track, which does not lie plumb above it: x, z and site are
+  /// those of the middle of its foot, s is that of the place it holds up; slope angle, radius and ordinate are none, and there
+  /// are no levels.
+  bool beyond_track = false;
 };
 
 /// A value at one place of the parts that rules of the shop may bound (`trades/rules.hpp`).

@@ -77,7 +77,7 @@ std::optional<double> place_at_run(const ArcSpline& track, double x, double abou
   for (const TrackArc& arc : track.arcs()) {
     double low = arc.start;
     double high = arc.start + arc.length;
-    if (!(track.at(low).x <= x && track.at(high).x >= x)) continue;
+    if (!(track.at(low).x <= x + kSame && track.at(high).x >= x - kSame)) continue;
     constexpr int kRounds = 60;  // rounding: down to it
     for (int round = 0; round < kRounds; ++round) {
       const double middle = 0.5 * (low + high);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -53,10 +54,20 @@ SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord_span
 SettingOutPoint setting_out_point(const ArcSpline& track, const std::vector<double>& joints,
                                   const Placement& placement, const StandingBelow& standing) {
   const auto in_mm = [](double metres) { return rounded_text(core::kMillimetres * metres, 6); };
-  const double s = place_at_run(track, standing.x, standing.at).value_or(standing.at);
-  return setting_out_point(
+  const std::optional<double> above = place_at_run(track, standing.x, standing.at);
+  const double s = above.value_or(standing.at);
+  SettingOutPoint row = setting_out_point(
       track, segment_at(joints, s), placement,
       standing.what + ": middle x " + in_mm(standing.x) + ", foot z " + in_mm(standing.foot), s);
+  if (above) return row;
+  row.beyond_track = true;
+  row.x = standing.x;
+  row.z = standing.foot;
+  row.site = placement.to_space(standing.x, 0.0 - standing.foot, 0.0);
+  row.slope_angle = Angle();
+  row.radius = std::numeric_limits<double>::infinity();
+  row.ordinate = 0.0;
+  return row;
 }
 
 void in_order(std::vector<SettingOutPoint>& rows) {

@@ -27,12 +27,14 @@ namespace glissade::parts {
 [[nodiscard]] SettingOutPoint setting_out_point(const ArcSpline& track, const Span& chord,
                                                 const Placement& placement, std::string what, double s);
 
-/// What stands below the track: its row is the place of the track plumb above its middle, and its name tells where it stands.
+/// What stands below the track: its row is the place of the track plumb above its middle, and its name tells where it stands. What
+/// holds up the end of a slope may stand beyond it, with no track plumb above: its row is its own foot
+/// (SettingOutPoint::beyond_track).
 struct StandingBelow {
   std::string what;   ///< "support 3"
   double x = 0.0;     ///< of its middle [m]
   double foot = 0.0;  ///< height of its foot [m]
-  double at = 0.0;    ///< the place that it holds up: its row where the track has none plumb above it
+  double at = 0.0;    ///< the place that it holds up
 };
 /// @param joints  as of segment_at()
 /// @return its row, called "support 3: middle x 2410.5, foot z -900" in millimetres

@@ -346,7 +346,8 @@ void add_offsets(const TimberJob& job, Workshop& workshop) {
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const auto line = offset_line(job.track, {0.0, job.track.length()}, heights[i]);
     for (SettingOutPoint& point : workshop.setting_out)
-      point.offsets.push_back(line ? level_below(*line, {point.x, point.z}) : std::nullopt);
+      point.offsets.push_back(line && !point.beyond_track ? level_below(*line, {point.x, point.z})
+                                                          : std::nullopt);
     if (!line) continue;
     workshop.notes.push_back("Ends of the " + workshop.offset_names[i] +
                              ", run and z in mm: " + place(line->vertices.front().at) + " at the start, " +
