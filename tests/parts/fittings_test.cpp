@@ -329,6 +329,8 @@ TEST_CASE("fittings: what cannot be made is refused with place, value, bound and
             "out farther than the channel is deep.|width: 250 mm or less") != std::string::npos);
   PlateOptions tiles;
   tiles.liner.emplace();
+  tiles.liner->thickness = 8e-3;
+  tiles.liner->bolt = 10;
   tiles.liner->tile_width = 40e-3;
   CHECK(
       refusal(tiles).find("liner.tile_width|tile_width: 40 mm makes half tiles of 17.9 mm|Holes for M10 take "

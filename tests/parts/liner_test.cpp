@@ -226,17 +226,18 @@ TEST_CASE("liner: tiles thinner than the heads of their bolts are refused, with 
   };
   const std::string why =
       "Tiles are held by countersunk bolts (ISO 10642), whose heads must not jut out of their faces.|";
-  CHECK(told(2e-3, 16) == "liner.thickness|thickness: 2 mm is less than the heads of M16 are high, 7.46 mm|" +
-                              why + "a thickness of 7.46 mm or more\n");
-  CHECK(told(5e-3, 12) == "liner.thickness|thickness: 5 mm is less than the heads of M12 are high, 6.46 mm|" +
-                              why + "bolt: M8, or a thickness of 6.46 mm or more\n");
+  CHECK(told(2e-3, 16) == "liner.thickness|thickness: 2 mm is less than the heads of M16 are high, 8.8 mm|" +
+                              why + "a thickness of 8.8 mm or more\n");
+  CHECK(told(5e-3, 12) == "liner.thickness|thickness: 5 mm is less than the heads of M12 are high, 7.44 mm|" +
+                              why + "bolt: M8, or a thickness of 7.44 mm or more\n");
   CHECK(told(12e-3, 24) ==
         "liner.bolt|bolt: M24 has no countersunk head|Tiles are held by countersunk bolts, and ISO 10642 "
         "ends at "
         "M20.|a bolt of M5 to M20\n");
   // What is told to try does, and so does the least of each size.
-  CHECK(told(7.46e-3, 16).empty());
+  CHECK(told(8.8e-3, 16).empty());
   CHECK(told(5e-3, 8).empty());
-  CHECK(told(6e-3, 10).empty());
-  CHECK_FALSE(told(5.49e-3, 10).empty());
+  CHECK(told(LinerOptions().thickness, LinerOptions().bolt).empty());
+  CHECK(told(6.2e-3, 10).empty());
+  CHECK_FALSE(told(6e-3, 10).empty());
 }

@@ -339,6 +339,8 @@ TEST_CASE("sections: what geometry forbids is refused with place, value, bound a
             .find("rim|rim: a closed section has no tops that it could lie along") == 0);
   PlateOptions narrow;
   narrow.liner.emplace();
+  narrow.liner->thickness = 8e-3;
+  narrow.liner->bolt = 10;
   narrow.stave_tolerance = 0.1e-3;
   const std::string stave = refused(v_channel(), narrow);
   CHECK(stave.find("liner.bolt|bolt: tiles on the stave_") == 0);

@@ -155,7 +155,7 @@ struct LinerOptions {
   double tile_width = 0.2;   ///< greatest, across [m]
   double gap = 2e-3;         ///< between tiles, and beside the walls [m]
   double heaviest = 25.0;    ///< mass of a tile [kg]
-  int bolt = 10;             ///< countersunk [mm]
+  int bolt = 8;              ///< countersunk [mm]
   LinerPlaces where = LinerPlaces::whole;
   double worn_from = 0.5;         ///< share of the peak from which a floor counts as worn; > 0, at most 1
   std::optional<double> life;     ///< for which spare tiles are listed [s]; > 0

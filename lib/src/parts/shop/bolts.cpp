@@ -12,15 +12,16 @@ namespace parts {
 namespace {
 
 // Holes: ISO 273:1979, fine, medium, coarse; nuts ISO 4032, washers ISO 7089 and ISO 7093-1 (heights, largest);
-// countersunk heads, largest heights: ISO 10642, which ends at M20.
+// countersunk heads, largest heights k: ISO 10642:1997, which ends at M20: half of what the largest theoretical head diameter
+// exceeds the thread by, (22.4 - 10) / 2 of M10 [mm].
 constexpr std::array<Bolt, 8> kBolts = {{
     {5, 5.3e-3, 5.5e-3, 5.8e-3, 4.7e-3, 1.1e-3, 1.2e-3, 10e-3, 15e-3, 3.1e-3},
-    {6, 6.4e-3, 6.6e-3, 7.0e-3, 5.2e-3, 1.8e-3, 1.8e-3, 12e-3, 18e-3, 3.3e-3},
-    {8, 8.4e-3, 9.0e-3, 10.0e-3, 6.8e-3, 1.8e-3, 2.2e-3, 16e-3, 24e-3, 4.4e-3},
-    {10, 10.5e-3, 11.0e-3, 12.0e-3, 8.4e-3, 2.2e-3, 2.7e-3, 20e-3, 30e-3, 5.5e-3},
-    {12, 13.0e-3, 13.5e-3, 14.5e-3, 10.8e-3, 2.7e-3, 3.3e-3, 24e-3, 37e-3, 6.46e-3},
-    {16, 17.0e-3, 17.5e-3, 18.5e-3, 14.8e-3, 3.3e-3, 3.3e-3, 30e-3, 50e-3, 7.46e-3},
-    {20, 21.0e-3, 22.0e-3, 24.0e-3, 18.0e-3, 3.3e-3, 4.6e-3, 37e-3, 60e-3, 8.46e-3},
+    {6, 6.4e-3, 6.6e-3, 7.0e-3, 5.2e-3, 1.8e-3, 1.8e-3, 12e-3, 18e-3, 3.72e-3},
+    {8, 8.4e-3, 9.0e-3, 10.0e-3, 6.8e-3, 1.8e-3, 2.2e-3, 16e-3, 24e-3, 4.96e-3},
+    {10, 10.5e-3, 11.0e-3, 12.0e-3, 8.4e-3, 2.2e-3, 2.7e-3, 20e-3, 30e-3, 6.2e-3},
+    {12, 13.0e-3, 13.5e-3, 14.5e-3, 10.8e-3, 2.7e-3, 3.3e-3, 24e-3, 37e-3, 7.44e-3},
+    {16, 17.0e-3, 17.5e-3, 18.5e-3, 14.8e-3, 3.3e-3, 3.3e-3, 30e-3, 50e-3, 8.8e-3},
+    {20, 21.0e-3, 22.0e-3, 24.0e-3, 18.0e-3, 3.3e-3, 4.6e-3, 37e-3, 60e-3, 10.16e-3},
     {24, 25.0e-3, 26.0e-3, 28.0e-3, 21.5e-3, 4.3e-3, 5.6e-3, 44e-3, 72e-3, 0.0},
 }};
 // Nominal lengths, ISO 888, as ISO 4017 and ISO 10642 have them [mm].
