@@ -198,11 +198,11 @@ TEST_CASE("bores: every hole of a pattern is one of the body, and tiles lie on f
   double sum = build.proof.exact_volume;
   for (const VolumeDifference& one : build.proof.differences) sum += one.volume;
   CHECK(std::fabs(build.proof.volume / sum - 1.0) < kPartsVolumeAccuracy);
-  // M10, coarse: 12 mm through 4 mm.
+  // M8, coarse: 10 mm through 4 mm.
   std::size_t drilled = 0;
   for (const ShopPart* floor : named(build, "floor")) drilled += holes_in(floor->body);
   CHECK(-build.proof.differences.back().volume ==
-        Approx(static_cast<double>(drilled) * std::numbers::pi * 36e-6 * 4e-3).epsilon(1e-4));
+        Approx(static_cast<double>(drilled) * std::numbers::pi * 25e-6 * 4e-3).epsilon(1e-4));
 }
 
 TEST_CASE("bores: holes keep off the joints of arcs, even where arcs are as short as they are") {
@@ -222,6 +222,7 @@ TEST_CASE("bores: holes keep off the joints of arcs, even where arcs are as shor
   }
   options.liner->tile_length = 40e-3;
   options.liner->bolt = 16;
+  options.liner->thickness = 12e-3;
   options.liner->tile_width = 0.3;
   const std::string refused = refusal_of(
       [&] { return make_plates(chute(), kChannel, {1e-6}, options, Placement(), {.friction = kFriction}); });

@@ -356,6 +356,8 @@ TEST_CASE("seams: what cannot be cut is refused with place, value, bound and a w
   holes.split.widest = 60e-3;
   holes.liner.emplace();
   holes.liner->tile_width = 70e-3;
+  holes.liner->thickness = 8e-3;
+  holes.liner->bolt = 10;
   CHECK(refusal(holes).find(
             "split.widest|the floor, 400 mm wide, leaves no place for seams that make strips of 60 "
             "mm or less|Seams keep off laps, slots, openings and holes.|widest: 400 mm") !=
