@@ -439,6 +439,7 @@ TEST_CASE("noise on few points is not followed as if it were their shape") {
   }
   // Two of a hundred of 20 to 24 points are: nothing else would follow a shape that few points show.
   CHECK(followed <= 4);
+  // Of a hundred one is warned of that needs no warning.
   CHECK(told <= 3);
 }
 

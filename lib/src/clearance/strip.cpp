@@ -188,7 +188,8 @@ struct Levels {
 
 // By how much the levels between two stations stray from the chords of their ends. Where none folds over, or all of each does,
 // L^2 - l^2 is convex in the height, so that the ends of such heights tell. In between, past the centres of curvature of some
-// stations and not yet of all, a level turns back and goes beyond both ends of its chord.
+// stations and not yet of all, a level turns back and goes beyond both ends of its chord. Where the outermost one does, a
+// length that grows evenly with the height bounds all of them.
 double Strip::straying(const Rib& a, const Rib& b) const {
   const double length = b.s - a.s;
   const double turn = a.slope - b.slope;

@@ -30,7 +30,8 @@ struct Least {
 ///   behind an end plane; what slides is not cut. Where normals meet beyond a centre of curvature, nothing needs cutting: a point that
 ///   several normals pass lies in the solid all the same (docs/solid.md).
 /// Method: between two stations a level at height n strays from the chord of its ends by no more than
-///   sqrt(L^2 - l^2)/2, L its arc length and l that chord, nor by more than L/4 times the angle that it turns.
+///   sqrt(L^2 - l^2)/2, L its arc length and l that chord, nor, where it does not turn back, by more than L/4 times the angle
+///   that it turns.
 ///   The cell between two stations lies within that of the hull of their normals: all that lies so near the hull has a value no
 ///   larger, and that is told as a normal's is. The cell that may hold the least value is halved until none may hold one that is smaller
 ///   by more than the accuracy; of cells that are points to rounding the normals count.
