@@ -285,6 +285,20 @@ TEST_CASE("of a kink that no finer mesh confirms one price is told, with how sur
   CHECK(active.price == Approx(0.5 * (looser - tighter)).epsilon(share));
 }
 
+TEST_CASE("how closely a price is known is told with it, and of one that no mesh tells what it stays below") {
+  ActiveLimit active;
+  active.limit = {LimitId::arc_length, Bound::highest};
+  active.price = 0.0123;
+  CHECK(price_text(active, {}) == "0.0123 s per m");
+  active.price_error = 0.06;
+  CHECK(price_text(active, {}) == "0.0123 s per m (to 6 %)");
+  // Told as "(to 80000 %)".
+  active.price_error = 1.0;
+  CHECK(price_text(active, {}) == "below some 0.0246 s per m");
+  active.price_error = 800.0;
+  CHECK(price_text(active, {ObjectiveKind::exit_speed}) == "below some 9.85 m/s per m");
+}
+
 TEST_CASE("a price that changes fast with its bound is one price") {
   // The exit speed is held from both sides, by one friction each: what else binds gives way a long way for a small change.
   // Told as 6.37e-6 looser and 8.21e-6 tighter, each sure, where re-solves win 7.16e-6 to either side.

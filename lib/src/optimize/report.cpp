@@ -58,6 +58,9 @@ std::string relaxed_text(const Relaxation& relaxation) {
 }  // namespace
 
 std::string price_text(const ActiveLimit& active, const Objective& objective) {
+  // By as much as itself: which price it is no mesh tells, only how high one had it.
+  if (active.price_error >= 1.0)
+    return "below some " + price_text((1.0 + active.price_error) * active.price, active.limit, objective);
   const std::string relaxing = price_text(active.price, active.limit, objective);
   if (active.price_error > 0.0)
     return relaxing + " (to " + rounded_text(100.0 * active.price_error, 1) + " %)";

@@ -61,7 +61,8 @@ struct ActiveLimit {
 };
 
 /// @return "0.0123 s per deg"; of a price to either side "0.0123 s per deg looser, 0.0456 tighter", or "0.0123 s per deg
-///         looser, no track tighter"; of one that meshes do not tell closely "0.0123 s per deg (to 6 %)"
+///         looser, no track tighter"; of one that meshes do not tell closely "0.0123 s per deg (to 6 %)", of one
+///         that changes by as much as itself or more "below some 0.0123 s per deg"
 [[nodiscard]] std::string price_text(const ActiveLimit& active, const Objective& objective);
 
 /// The smallest change of one limit, all others kept, that was found to make the problem solvable.

@@ -339,11 +339,14 @@ void add_leads(const ScaledProblem& problem, const Found& found, const Vector& c
 /// @param error        of each
 std::vector<ActiveLimit> binding_limits(const ScaledProblem& problem, const Found& found,
                                         const Vector& multipliers, const Vector& error) {
+  constexpr double kNothing = 1e-8;  // accuracy: a hundredth of that of a time, for a whole scale of relief
   std::vector<ActiveLimit> result;
   const std::vector<std::vector<Span>> bindings = bindings_of(problem, found);
   for (std::size_t i = 0; i < problem.limits.size(); ++i) {
     const LimitSpec& limit = problem.limits[i];
-    const double multiplier = multipliers[i];
+    // What rounding leaves of a multiplier is no price.
+    const bool counts = multipliers[i] + error[i] > kNothing * std::fabs(found.objective);
+    const double multiplier = counts ? multipliers[i] : 0.0;
     if (multiplier <= 0.0 && limit.side != 0 && bindings[i].empty()) continue;
     ActiveLimit active;
     active.limit = limit.name;

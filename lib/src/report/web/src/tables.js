@@ -139,7 +139,8 @@ function placeText(limit, units) {
 }
 
 // A price counts per unit of the limit: in the unit that is shown. Where another limit begins to bind at the same bound,
-// relief wins less than tightening costs, and both are told. One that meshes do not tell closely comes with how closely.
+// relief wins less than tightening costs, and both are told. One that meshes do not tell closely comes with how closely, and one that
+// changes by as much as itself as what it stays below.
 function priceText(limit, units) {
   if (limit.price === null) return "\u2013";
   const quantity = quantityOf(limit.unit);
@@ -150,7 +151,9 @@ function priceText(limit, units) {
     const price = speed ? units.convert("speed", value) : value;
     return number(quantity ? price / units.convert(quantity, 1) : price, 3);
   };
-  const text = `${shown(limit.price)} ${speed ? units.unit("speed") : objective} per ${unit}`;
+  const perUnit = `${speed ? units.unit("speed") : objective} per ${unit}`;
+  if (limit.price_error >= 1) return `below some ${shown((1 + limit.price_error) * limit.price)} ${perUnit}`;
+  const text = `${shown(limit.price)} ${perUnit}`;
   if (limit.price_error > 0) return `${text} (to ${number(100 * limit.price_error, 1)} %)`;
   if (limit.tightening_price === limit.price) return text;
   return `${text} looser, ${limit.tightening_price === null ? "no track" : shown(limit.tightening_price)} tighter`;
