@@ -148,7 +148,7 @@ TEST_CASE("the price of a limit in drop is what the drop changes by") {
   problem.limits.highest_curvature_rate = 6e-4 - step;
   const double tighter = drop_of(solved(problem));
   const double measured = (tighter - looser) / (2.0 * step);
-  CHECK(std::fabs(price_of(lowest, LimitId::highest_curvature_rate) / measured - 1.0) < 1e-3);
+  CHECK(std::fabs(price_of(lowest, LimitId::highest_curvature_rate) / measured - 1.0) < 2e-3);
 }
 
 TEST_CASE("the price of a straight end is what the drop or the length changes by") {
@@ -167,6 +167,36 @@ TEST_CASE("the price of a straight end is what the drop or the length changes by
     const double measured = (measure_with(kStep) - measure_with(-kStep)) / (2.0 * kStep);
     CHECK(price_of(best, LimitId::lead_out) == Approx(measured).epsilon(1e-3));
     CHECK(best.report.finer_mesh_wins.value() < 1e-6);
+  }
+}
+
+TEST_CASE("a nearer end that is allowed never asks for a higher start") {
+  // Between drag and hardly any friction low tracks are of two kinds, short ones and slow ones over a crest. Told as the lowest were 1.0964 m
+  // with x from 5 m where 0.9890 m do, and 1.9745 m with x from 5.45 m where 1.9564 m do.
+  struct Case {
+    double friction, drag, entry, exit, valley, crest, steepest, exit_angle;
+    std::vector<double> nearest;
+  };
+  for (const Case& one :
+       {Case{5e-3, 0.003, 8.0, 9.0, 5.0, 8.0, 60.0, 14.0, {4.99, 5.0, 5.01, 6.0, 8.0, 12.0}},
+        Case{0.0, 0.00395, 6.514, 8.869, 1.02, 2.78, 70.0, 7.0, {5.45, 6.8}},
+        Case{0.0, 0.002957, 8.0654, 8.8689, 5.097, 7.841, 63.55, 13.84, {9.2, 11.0}}}) {
+    Problem problem = task(one.friction, one.drag, one.exit, ObjectiveKind::least_drop);
+    problem.body.entry_speed = one.entry;
+    problem.limits.smallest_valley_radius = one.valley;
+    problem.limits.smallest_crest_radius = one.crest;
+    problem.limits.slope_angle.highest = one.steepest * kDegree;
+    problem.limits.exit_slope_angle = Range::fixed(one.exit_angle * kDegree);
+    double before = 0.0;
+    for (const double nearest : one.nearest) {
+      CAPTURE(one.drag, nearest, before);
+      problem.finish.free_range.lowest = nearest;
+      const double drop = drop_of(solved(problem));
+      // What a track all but plumb loses to a mesh, which its report tells.
+      constexpr double kOfMesh = 5e-5;
+      CHECK(drop > (1.0 - kOfMesh) * before);
+      before = drop;
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace glissade::optimizer {
@@ -113,6 +114,10 @@ Candidate Searcher::search(Opening opening, const std::optional<Candidate>& to_b
     std::vector<GuessCurve> more;
     if (!unlimited && (tried.size() == 1 || is_about_speed(*candidate.rough)))
       more = worth_trying(*candidate.rough, curves, *found, rough.got_lost);
+    if (!unlimited && tried.size() == 1) {
+      std::vector<GuessCurve> to_other_runs = promising_runs(*candidate.rough, *found);
+      std::move(to_other_runs.begin(), to_other_runs.end(), std::back_inserter(more));
+    }
     if (more.empty() || candidate.stopped) {
       refine(candidate, *found, unlimited && scaled_problem.drag == 0.0);
       if (!candidate.kept && !candidate.stopped && candidate.found) others.push_back(std::move(*found));
@@ -131,6 +136,33 @@ Candidate Searcher::search(Opening opening, const std::optional<Candidate>& to_b
     mend_any(candidate, other.track->mesh(), other.z);
   }
   return candidate;
+}
+
+std::vector<GuessCurve> Searcher::promising_runs(const ScaledProblem& problem, const Found& first) {
+  constexpr std::size_t kMost = 2;   // budget
+  constexpr double kSame = 1e-4;     // taste: of the objective, on coarse meshes
+  constexpr double kNotFar = 0.02;   // taste: of the objective, by which what follows may win more
+  constexpr double kLoosely = 1e-3;  // taste: what is no optimum on a coarse mesh promises nothing
+  if (!(problem.drop_weight > 0.0 || problem.length_weight > 0.0)) return {};
+  const auto is_same = [&](double a, double b) { return std::fabs(a - b) <= kSame * std::fabs(b); };
+  std::vector<std::pair<double, GuessCurve>> promising;
+  for (GuessCurve& start : starts_to_other_runs(problem)) {
+    if (control_.stop()) break;
+    const std::optional<Found> found = coarse(problem, start).found;
+    if (!found || !found->feasible(kNearlyFeasible) || found->residual > kLoosely) continue;
+    if (found->objective > first.objective + kNotFar * std::fabs(first.objective)) continue;
+    const bool is_known = is_same(found->objective, first.objective) ||
+                          std::any_of(promising.begin(), promising.end(), [&](const auto& known) {
+                            return is_same(found->objective, known.first);
+                          });
+    if (!is_known) promising.emplace_back(found->objective, std::move(start));
+  }
+  std::stable_sort(promising.begin(), promising.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (promising.size() > kMost) promising.resize(kMost);
+  std::vector<GuessCurve> curves;
+  for (auto& [objective, start] : promising) curves.push_back(std::move(start));
+  return curves;
 }
 
 void Searcher::take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,

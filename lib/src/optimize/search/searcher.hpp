@@ -127,6 +127,8 @@ class Searcher {
   bool ends_better(const Mesh& mesh, const Vector& z, Candidate& best);
   /// Whether a track is plainly behind the one to beat, whatever finer meshes win.
   [[nodiscard]] bool is_behind(const Found& found, bool on_finest) const;
+  /// Starts to other runs of a free finish that lead to tracks as low or short as the first one's, or nearly so.
+  [[nodiscard]] std::vector<GuessCurve> promising_runs(const ScaledProblem& problem, const Found& first);
   /// From every start, where the first one's track is doubted: the best of them, then others until one is an optimum.
   void take_best(Candidate& candidate, Found first, const std::vector<GuessCurve>& more,
                  std::vector<Found>& others);

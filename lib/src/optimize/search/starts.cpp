@@ -332,6 +332,45 @@ double mirrored_digits(int number, int base) {
 
 }  // namespace
 
+std::vector<GuessCurve> starts_to_other_runs(const ScaledProblem& problem) {
+  // Of the nearest that is allowed.
+  constexpr double kRuns[] = {1.0, 1.5, 2.5, 4.0};  // taste
+  // By which slope angles at the ends are off the mean [rad].
+  constexpr double kCrests[] = {0.05, 0.5};  // taste
+  const bool is_free = problem.finish == FinishKind::anywhere || problem.finish == FinishKind::level;
+  if (!is_free) return {};
+  const Vec2 expected = expected_finish(problem);
+  double nearest = 0.0;
+  double farthest = HUGE_VAL;
+  for (const LimitSpec& limit : problem.limits) {
+    if (limit.name.id != LimitId::finish_run) continue;
+    if (limit.side <= 0) nearest = std::max(nearest, limit.bound);
+    if (limit.side >= 0) farthest = std::min(farthest, limit.bound);
+  }
+  if (!(nearest > 0.0)) nearest = 0.5 * expected.x;
+  const double ends = problem.lead_in + problem.lead_out;
+  std::vector<GuessCurve> curves;
+  for (const double times : kRuns) {
+    const double run = times * nearest;
+    if (run > farthest) break;
+    for (const double crest : kCrests) {
+      GuessCurve curve = straight({run, expected.y});
+      const double mean = math::atan2(expected.y, run);
+      double along = 0.0;
+      for (std::size_t i = 0; i < curve.sigma.size(); ++i) {
+        const double turned = crest * (2.0 * curve.sigma[i] - 1.0);
+        curve.zeta[i] = mean + turned;
+        along += math::cos(turned) / static_cast<double>(curve.sigma.size());
+      }
+      curve.length /= along;
+      curve = clipped(std::move(curve), problem);
+      curve.length = std::max(curve.length - ends, 0.2 * curve.length);
+      curves.push_back(std::move(curve));
+    }
+  }
+  return curves;
+}
+
 std::vector<GuessCurve> scattered_starts(const ScaledProblem& problem) {
   // measured: of a problem that 8 % of such curves solve 32 find a track in 14 of 15 cases
   constexpr int kCurves = 32;

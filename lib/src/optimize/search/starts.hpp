@@ -40,6 +40,10 @@ struct FlyingStart {
 /// braked where a steep piece meets a flat one, most of all where it is fast.
 [[nodiscard]] std::vector<GuessCurve> stepped_starts(const ScaledProblem& problem);
 
+/// Where the run of the finish is free: to nearer and farther ones than starts() expects, straight and over a crest. Tracks that are to
+/// be low have optima at several runs.
+[[nodiscard]] std::vector<GuessCurve> starts_to_other_runs(const ScaledProblem& problem);
+
 /// Curves of no kind: those of starts(), flattened and waved by amounts that fill their ranges evenly. What leads to
 /// no track from any of them is a contradiction with more right than from the few that are likely.
 [[nodiscard]] std::vector<GuessCurve> scattered_starts(const ScaledProblem& problem);
