@@ -10,6 +10,7 @@
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/shortfalls.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,6 +177,58 @@ TEST_CASE("lugs: plumb above the centre of gravity of what they lift, where the 
   const Vec3 centre = (1.0 / mass) * moment;
   CHECK(std::fabs(lugs.back()->centre_of_gravity.x - centre.x) < 0.12);
   for (const ShopPart* lug : lugs) CHECK(lug->quantity() == 2);
+}
+
+TEST_CASE("lugs and stiffeners of a channel that find no place are told with the units and places, and why") {
+  PlateOptions options;
+  options.split.longest = 0.5;
+  options.lifting.emplace();
+  options.stiffeners.emplace();
+  options.stiffeners->spacing = 0.1;
+  const WorkshopBuild crowded = plates(chute(), options);
+  CHECK(named(crowded, "lug").empty());
+  const std::string lugs = shortfall_of(crowded.workshop, "lifting: ");
+  INFO(lugs);
+  CHECK(lugs.starts_with("lifting|lifting: no lugs on units 1 ("));
+  CHECK(lugs.find(" kg), 2 (") != std::string::npos);
+  CHECK(lugs.find(std::to_string(crowded.joints.size() - 1 - 6) +
+                  " more|Frames, stiffeners, bolts and openings leave no 80 mm of the track free, which a "
+                  "pair of them "
+                  "takes.|longer units (split.longest)") != std::string::npos);
+  // Of thick plates in a hollow the gap would close.
+  const ClothoidSpline track(Angle::from_degrees(60.0), {{1.0, 0.0, 0.0}, {0.5, 1.5, 1.5}, {1.0, 0.0, 0.0}});
+  options = {};
+  options.split.longest = 3.0;
+  options.stiffeners.emplace();
+  options.stiffeners->spacing = 0.4;
+  options.stiffeners->thickness = 30e-3;
+  const WorkshopBuild bent = plates(track, options);
+  const std::string stiffeners = shortfall_of(bent.workshop, "stiffeners: ");
+  INFO(stiffeners);
+  CHECK(stiffeners.find(" no place, at about ") != std::string::npos);
+  CHECK(stiffeners.find(
+            " along the track|Over their thickness of 30 mm plates bend there by more than the gap of ") !=
+        std::string::npos);
+  CHECK(stiffeners.ends_with(
+      "|another spacing than 400 mm, a smaller thickness, a larger flanges.gap, or no stiffeners"));
+  options.stiffeners->thickness = 6e-3;
+  CHECK(shortfalls_of(plates(track, options).workshop).empty());
+}
+
+TEST_CASE("lugs of a channel that are not plumb above the centre of gravity are told so") {
+  PlateOptions options;
+  options.split.longest = 0.7;
+  options.lifting.emplace();
+  const WorkshopBuild build = plates(chute(), options);
+  const auto noted = [&](const std::string& unit) {
+    for (const std::string& note : build.workshop.notes) {
+      if (note.starts_with(unit)) return note;
+    }
+    return std::string();
+  };
+  CHECK(noted("Unit 1: ").ends_with(" from plumb above its centre of gravity."));
+  CHECK(noted("Unit " + std::to_string(build.joints.size() - 1) + ": ")
+            .ends_with(" along the track, beside its centre of gravity."));
 }
 
 TEST_CASE("covers and rims: as many holes in one as in the other; lids cover their openings") {

@@ -17,6 +17,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shop_rules.hpp"
+#include "support/shortfalls.hpp"
 #include "support/thorough.hpp"
 
 #include <algorithm>
@@ -550,6 +551,24 @@ TEST_CASE("prints: stands with an uneven top come in blocks that are lower below
     CHECK(size_of(piece.mesh).z <= 0.1);
   }
   CHECK(blocks > 10);
+}
+
+TEST_CASE("prints: stands that find no place are told with the slope there, the bound and one that does") {
+  PrintOptions options = on_stands(0.08);
+  CHECK(testing::shortfall_of(prints(run(), groove(), options).workshop, "steepest: ").find("start, ") !=
+        std::string::npos);
+  options.stands->steepest = Angle::from_degrees(25.0);
+  const WorkshopBuild build = prints(run(), groove(), options);
+  std::size_t standing = 0;
+  for (const SettingOutPoint& point : build.workshop.setting_out) standing += point.what.find("stand") == 0;
+  const std::string told = testing::shortfall_of(build.workshop, "steepest: ");
+  INFO(told);
+  CHECK(told.starts_with("stands.steepest|steepest: "));
+  CHECK(told.find(" stands find no place (start, ") != std::string::npos);
+  CHECK(told.find(" out; joint 1, ") != std::string::npos);
+  CHECK(told.find(" deg steep|None stands below a run steeper than 25 deg.|steepest: ") != std::string::npos);
+  options.stands->steepest = Angle::from_degrees(std::stod(told.substr(told.rfind("|steepest: ") + 11)));
+  CHECK(testing::shortfalls_of(prints(run(), groove(), options).workshop).empty());
 }
 
 TEST_CASE(

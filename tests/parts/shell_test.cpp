@@ -10,6 +10,7 @@
 #include "parts/random_tracks.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/shortfalls.hpp"
 #include "support/thorough.hpp"
 
 #include <algorithm>
@@ -539,12 +540,13 @@ TEST_CASE("openings: where none is to be had it is refused with place, value, bo
   CHECK(several.find("inspection|at: an opening at 9 m is not on the track|") == 0);
   CHECK(several.find("\ninspection|at: openings at 2 m and 2.1 m are too close|") != std::string::npos);
   CHECK(several.find("\ninspection|at: an opening at -1 m is not on the track|") != std::string::npos);
-  // Moved to one arc, a note tells it.
+  // Moved to one arc, which is told.
   options.inspection = {{1.2, 0.2, 0.1, 8}, {4.0, 0.2, 0.1, 8}, {5.5, 0.2, 0.1, 8}};
   const WorkshopBuild moved = plates_of(chute(), trapezoid, options);
   CHECK(pieces(moved, "lid") == 3);
-  for (const std::string& note : moved.workshop.notes) {
-    if (note.starts_with("The opening")) CHECK(note.ends_with("on one arc of its plate."));
+  for (const std::string& told : shortfalls_of(moved.workshop, "at: ")) {
+    CHECK(told.find("|With its lid it lies on one arc of its plate, clear of frames.|at: ") !=
+          std::string::npos);
   }
   options.inspection = {{2.0, 1.5, 0.1, 8}};
   CHECK(refused(trapezoid, options).find("inspection|at: an opening at 2 m ") == 0);

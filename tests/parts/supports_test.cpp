@@ -1,12 +1,14 @@
 // How far apart trestles stand.
 
 #include "glissade/centerline/clothoid_spline.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/parts/plates.hpp"
 #include "glissade/pipeline.hpp"
 
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/shortfalls.hpp"
 #include "support/thorough.hpp"
 
 #include <algorithm>
@@ -38,14 +40,18 @@ double widest_span(const WorkshopBuild& build) {
 }
 
 bool tells_of_spans(const WorkshopBuild& build) {
-  return std::any_of(build.workshop.notes.begin(), build.workshop.notes.end(),
-                     [](const std::string& note) { return note.rfind("Trestles are up to ", 0) == 0; });
+  return !shortfall_of(build.workshop, "spacing: supports ").empty();
 }
 
+/// @param which  "above support 1"
 bool tells_of_end(const WorkshopBuild& build, const std::string& which) {
-  return std::any_of(build.workshop.notes.begin(), build.workshop.notes.end(), [&](const std::string& note) {
-    return note.rfind("The track sticks out by ", 0) == 0 && note.find(which) != std::string::npos;
-  });
+  const std::vector<std::string> all = shortfalls_of(build.workshop, "spacing: the track sticks out by ");
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& told) { return told.find(" " + which) != std::string::npos; });
+}
+
+std::string last_of(const std::vector<double>& row) {
+  return "below support " + std::to_string(row.size()) + ",";
 }
 
 /// What spans of a row are wider than asked for, by squares; ends that stick out count twice.
@@ -100,9 +106,9 @@ TEST_CASE("trestles are no farther apart than is asked for, or a note says where
     // Places as they are measured on the parts are a few millimetres off those along the track.
     constexpr double kClose = 5e-3;
     if (std::fabs(row.front() - most) > kClose)
-      CHECK((row.front() > most) == tells_of_end(build, "above the first"));
+      CHECK((row.front() > most) == tells_of_end(build, "above support 1,"));
     if (std::fabs(length - row.back() - most) > kClose)
-      CHECK((length - row.back() > most) == tells_of_end(build, "below the last"));
+      CHECK((length - row.back() > most) == tells_of_end(build, last_of(row)));
     kept = kept || !wide;
     told = told || wide;
   }
@@ -150,8 +156,8 @@ TEST_CASE("trestles: what stands closer than is asked for shows which places are
     rows.push_back(places_of(build));
     REQUIRE_FALSE(rows.back().empty());
     CHECK((widest_span(build) > spacing + 1e-3) == tells_of_spans(build));
-    CHECK((rows.back().front() > 0.5 * spacing + 1e-3) == tells_of_end(build, "above the first"));
-    CHECK((length - rows.back().back() > 0.5 * spacing + 1e-3) == tells_of_end(build, "below the last"));
+    CHECK((rows.back().front() > 0.5 * spacing + 1e-3) == tells_of_end(build, "above support 1,"));
+    CHECK((length - rows.back().back() > 0.5 * spacing + 1e-3) == tells_of_end(build, last_of(rows.back())));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (const auto& other : rows) {
@@ -292,4 +298,53 @@ TEST_CASE("trestles: base plates of both legs lie beside each other, however thi
       CHECK(std::fabs(apart) >= bounds(plate->pattern->region.outline).width() + 10e-3 - 1e-9);
     }
   }
+}
+
+TEST_CASE("trestles: what is told of wide spans names the supports, the bound, and a spacing that does") {
+  const double spacing = 0.5;
+  const WorkshopBuild build = crowded(spacing);
+  const std::vector<double> row = places_of(build);
+  const std::string span = shortfall_of(build.workshop, "spacing: supports ");
+  INFO(span);
+  const auto supports = [](std::size_t i) { return std::to_string(i) + " and " + std::to_string(i + 1); };
+  std::size_t widest = 1;
+  for (std::size_t i = 1; i < row.size(); ++i) {
+    if (row[i] - row[i - 1] > row[widest] - row[widest - 1]) widest = i;
+  }
+  CHECK(span.find("supports.spacing|spacing: supports " + supports(widest) + " are ") == 0);
+  CHECK(span.find(", for 500 mm") != std::string::npos);
+  CHECK(span.find("|Frames, stiffeners, openings, bends or other trestles leave no place between them.|") !=
+        std::string::npos);
+  // The largest spacing that is named does, and no less does by much.
+  double enough = 0.0;
+  for (const std::string& told : shortfalls_of(build.workshop, "spacing: ")) {
+    const std::size_t hint = told.rfind("|spacing: ") + 10;
+    const bool millimetres = told.find(" mm", hint) < told.find(',', hint);
+    enough = std::max(enough, std::stod(told.substr(hint)) * (millimetres ? 1e-3 : 1.0));
+  }
+  CHECK(shortfalls_of(crowded(enough).workshop, "spacing: ").empty());
+  CHECK_FALSE(shortfalls_of(crowded(0.9 * enough).workshop, "spacing: ").empty());
+}
+
+TEST_CASE("trestles: an end that sticks out where the track is steep is told with its slope and the bound") {
+  PlateOptions options;
+  options.split.longest = 2.9;
+  options.flanges.wanted = false;
+  options.supports.emplace();
+  options.supports->ground = {{0.0, -6.2}};
+  options.supports->spacing = 1.0;
+  options.supports->steepest = Angle::from_degrees(40.0);
+  const WorkshopBuild build = plates(chute(), options);
+  const double first = places_of(build).front();
+  const std::string end = shortfall_of(build.workshop, "spacing: the track sticks out by ");
+  INFO(end);
+  const std::size_t at = end.find(" above support 1, at ");
+  REQUIRE(at != std::string::npos);
+  // Places as they are measured on the parts are a few millimetres off those along the track.
+  CHECK(std::fabs(std::stod(end.substr(at + 21)) - first) < 5e-3);
+  CHECK(end.find(" m along it, for 500 mm, half of 1 m|Nearer to its end it is ") != std::string::npos);
+  CHECK(end.find(
+            " deg steep or steeper, and a trestle stands below no more than 40 deg (steepest).|spacing: ") !=
+        std::string::npos);
+  CHECK(end.ends_with(", a larger steepest, or a support of your own that holds the end"));
 }

@@ -3,10 +3,12 @@
 #include "parts/timber/timber_fasteners.hpp"
 
 #include "glissade/core/math.hpp"
+#include "glissade/core/number_text.hpp"
 #include "glissade/parts/timber.hpp"
 
 #include "support/catch.hpp"
 #include "support/random.hpp"
+#include "support/shortfalls.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -168,21 +170,27 @@ TEST_CASE("timber: legs and boards longer than lumber comes are told, however th
     options.legs = LegOptions{{{0.0, -8.0}}, 2.0, 90e-3};
     options.split.longest = longest;
     const WorkshopBuild build = timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0);
-    std::string note;
-    for (const std::string& one : build.workshop.notes) {
-      if (one.starts_with("Longer than the ")) note = one.substr(0, one.size() - 1) + ",";
-    }
+    const std::string note = testing::shortfall_of(build.workshop, "longest: ");
     for (const ShopPart& part : build.workshop.parts) {
       if (!part.stands) continue;
       const double length = board_length(part.pattern->region.outline);
       if (std::fabs(length - longest) < 2e-3) continue;  // as near as turning by steps tells
-      const bool told = note.find(" " + part.name + ",") != std::string::npos;
+      const bool told = note.find(" " + part.name + " (") != std::string::npos;
       CAPTURE(part.name, length, note);
       CHECK(told == (length > longest));
       const bool brace = part.name.find("brace") != std::string::npos;
       if (brace && told) ++boards;
     }
-    if (longest < 9.0) CHECK(note.find(" of split.longest, to be spliced: ") != std::string::npos);
+    if (longest < 9.0) {
+      CHECK(note.starts_with("split.longest|longest: "));
+      CHECK(note.find(" longer than " + length_text(longest) + ", and to be spliced|") != std::string::npos);
+      // A stock as long as is told does.
+      const std::string key = "|longest: ";
+      options.split.longest = std::stod(note.substr(note.rfind(key) + key.size()));
+      CHECK(testing::shortfall_of(
+                timber(options, section::Slab{WidthLaw(1.2), 24e-3, 0.0, 0.0}, 9.0).workshop, "longest: ")
+                .empty());
+    }
   }
   CHECK(boards > 10);
 }

@@ -14,6 +14,7 @@
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shop_rules.hpp"
+#include "support/shortfalls.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -181,6 +182,75 @@ TEST_CASE(
   CHECK(std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
           return note.starts_with("Ends of the underside of beams, run and z in mm: -341.");
         }) == 1);
+}
+
+TEST_CASE("timber: rows of legs that find no place are told, and so is where bearers lie on the ground") {
+  TimberOptions options;
+  options.legs = LegOptions{{{0.0, -8.0}}, 0.5, 90e-3};
+  const section::Measures deck = section::Slab{WidthLaw(1.0), 24e-3, 0.0, 0.0};
+  const ClothoidSpline steep(Angle::from_degrees(75.0), {{2.0, 0.0, 0.0}, {4.0, 0.25, 0.25}});
+  const WorkshopBuild build = timber(steep, options, deck);
+  const std::string told = testing::shortfall_of(build.workshop, "legs: ");
+  INFO(told);
+  CHECK(told.starts_with("legs|legs: "));
+  CHECK(told.find(" rows find no place, at ") != std::string::npos);
+  CHECK(told.find(
+            " from the start along the run|None stands below bearers steeper than 68.8 deg: it would carry "
+            "nothing.|a track that is less steep there, or a support of your own") != std::string::npos);
+  // As many as are told are missing.
+  const std::size_t of = told.find(" of ");
+  const int missing = std::stoi(told.substr(std::string("legs|legs: ").size()));
+  const int asked = std::stoi(told.substr(of + 4));
+  CHECK(missing > 0);
+  std::size_t rows = 0;
+  for (const SettingOutPoint& point : build.workshop.setting_out) rows += point.what.starts_with("leg ");
+  CHECK(static_cast<int>(rows) == asked - missing);
+  const auto on_ground = [&](const WorkshopBuild& made) {
+    return std::any_of(made.workshop.notes.begin(), made.workshop.notes.end(), [](const std::string& note) {
+      return note.starts_with("No legs at ") &&
+             note.ends_with("bearers lie on the ground there, or less than 50 mm above it.");
+    });
+  };
+  CHECK_FALSE(on_ground(build));
+  const ArcSpline track = bend(9.0);
+  options.legs->spacing = 2.0;
+  const WorkshopBuild free = timber(track, options);
+  CHECK(testing::shortfall_of(free.workshop, "legs: ").empty());
+  CHECK_FALSE(on_ground(free));
+  // The ground just below the underside of the bearers at the finish.
+  const parts::TrackFrame end = parts::frame_at(track, track.length());
+  const double under = 24e-3 + 70e-3 + 2e-3 + 0.2;
+  options.legs->ground = {{0.0, end.at.y - under * end.up.y - 20e-3}};
+  CHECK(on_ground(timber(track, options)));
+}
+
+TEST_CASE("timber: bays of legs that no board braces are told, and no others") {
+  // The ground falls as the track does: from a lower foot to an upper head it is too steep for one board.
+  const double fall = std::tan(50.0 * std::numbers::pi / 180.0);
+  const ClothoidSpline track(Angle::from_degrees(50.0), {{8.0, 0.0, 0.0}, {8.0, 0.06, 0.06}});
+  TimberOptions options;
+  options.legs = LegOptions{{{-2.0, 2.0 * fall - 2.1}, {5.5, -5.5 * fall - 2.1}, {30.0, -20.0}}, 2.0, 90e-3};
+  const auto told = [&] {
+    const WorkshopBuild build = timber(track, options);
+    std::size_t boards = 0;
+    for (const ShopPart* part : named(build, "long_brace_")) boards += part->quantity();
+    return std::pair(testing::shortfall_of(build.workshop, "braced_from: "), boards);
+  };
+  const auto [text, few] = told();
+  INFO(text);
+  REQUIRE(text.starts_with("legs.braced_from|braced_from: no boards brace "));
+  CHECK(text.find(" bays along the run, legs 1 to 2") != std::string::npos);
+  CHECK(
+      text.find(
+          ", although a leg of each is 1.5 m long or longer|Between ground and bearers, 5 mm clear of both, "
+          "boards of 120 mm (brace_width) find no room there, whichever way they rise.|another spacing of "
+          "the "
+          "legs, or bracing of your own") != std::string::npos);
+  // Below level ground every bay has its boards.
+  options.legs->ground = {{0.0, -14.0}};
+  const auto [none, many] = told();
+  CHECK(none.empty());
+  CHECK(many > few);
 }
 
 TEST_CASE(

@@ -211,12 +211,12 @@ double k_factor(double inner_radius, double thickness) {
 namespace {
 
 /// Of a bent floor that costs more speed than is asked for.
-void note_missed_bends(const Job& job, const std::vector<Unit>& units, const Motion& design, const Body& body,
+void tell_missed_bends(const Job& job, const std::vector<Unit>& units, const Motion& design, const Body& body,
                        double gravity, Workshop& workshop) {
   if (job.options.floor != FloorMake::bent) return;
   std::vector<Facets> facets;
   for (const Unit& unit : units) facets.push_back(*unit.face.facets);
-  note_missed_speed(job.options.bend, facets, least_flat(job.channel.thickness, job.options, 0.0),
+  tell_missed_speed(job.options.bend, facets, least_flat(job.channel.thickness, job.options, 0.0),
                     ", or floor: rolled", body, gravity, design.exit_speed(), workshop);
 }
 
@@ -258,7 +258,7 @@ WorkshopBuild make_channel(const Centerline& track, const ChannelMeasures& chann
   build.proof = prove(job, units, workshop);
   add_corner_note(job, workshop);
   note_differences(build.proof, "the plain channel", workshop);
-  note_missed_bends(job, units, smooth, body, gravity, workshop);
+  tell_missed_bends(job, units, smooth, body, gravity, workshop);
   return build;
 }
 
@@ -346,12 +346,19 @@ FlangeOptions fitted_flanges(const ChannelMeasures& channel, const PlateOptions&
   return none;
 }
 
-void note_frames(const FlangeOptions& frame, const ChannelMeasures& channel, Workshop& workshop) {
-  const std::string walls = " beside walls of " + length_text(channel.wall_height, 3) + ".";
-  workshop.notes.push_back(frame.wanted
-                               ? "Frames are " + length_text(frame.width) + " wide, with M" +
-                                     std::to_string(frame.bolt) + ": the usual ones find no room" + walls
-                               : "No frames: none finds room" + walls);
+/// Says which frames there are beside low walls, or that there are none.
+void tell_frames(const FlangeOptions& frame, const ChannelMeasures& channel, Workshop& workshop) {
+  const std::string walls = "walls of " + length_text(channel.wall_height, 3);
+  if (frame.wanted) {
+    workshop.notes.push_back("Frames are " + length_text(frame.width) + " wide, with M" +
+                             std::to_string(frame.bolt) + ": the usual ones find no room beside " + walls +
+                             ".");
+    return;
+  }
+  add_shortfall({"flanges", "flanges: no frames at the ends of units, which are to be welded",
+                 "None finds room beside " + walls + ": the narrowest are 14 mm wide, with M5.",
+                 "flanges: none if that is meant, or higher walls"},
+                workshop);
 }
 
 /// The thickest usual plate of which something is left between the mitres of every side.
@@ -501,7 +508,7 @@ WorkshopBuild make_plates(const Centerline& track, const section::Measures& meas
   if (!problems.empty()) throw InputError(std::move(problems));
   if (const auto channel = channel_of(measures)) {
     WorkshopBuild build = make_plates(track, *channel, fit, options, placement, body, gravity);
-    if (options.flanges != told.flanges) note_frames(options.flanges, *channel, build.workshop);
+    if (options.flanges != told.flanges) tell_frames(options.flanges, *channel, build.workshop);
     return build;
   }
   return make_section(track, measures, fit, options, placement, body, gravity);

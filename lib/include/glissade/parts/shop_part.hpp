@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/core/arc_path.hpp"
+#include "glissade/core/error.hpp"
 #include "glissade/core/quantity.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/core/vec.hpp"
@@ -298,7 +299,10 @@ struct Workshop {
   std::vector<std::string> offset_names;  ///< of SettingOutPoint::offsets: "underside of deck"
   std::vector<ShopMeasurement> measured;  ///< what rules of the shop may bound
   std::vector<ShopCheck> checks;          ///< what they say of it: judge_shop() of pipeline/shop_rules.hpp
-  std::vector<std::string> notes;         ///< in words, for a drawing: fits, kerf, trims
+  /// What was asked for and is not made so: trestles that find no place, spans wider than asked for. `where` is the key below
+  /// `fabrication` ("supports.spacing"), of a build its place in the design file. For whoever designs: warnings() has them all.
+  std::vector<Issue> shortfalls;
+  std::vector<std::string> notes;  ///< in words, for whoever makes it: fits, kerf, trims, how it is lifted
 };
 
 /// @return NUMBER_name_material_thickness_quantity without an ending, as a shop sorts files: "03_left_wall_S235_4mm_2x"

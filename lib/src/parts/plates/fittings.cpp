@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 
 #include "core/millimetres.hpp"
 #include "parts/bodies/body_moments.hpp"
@@ -13,6 +14,7 @@
 #include "parts/plates/plate_joints.hpp"
 #include "parts/plates/seams.hpp"
 #include "parts/plates/shell.hpp"
+#include "parts/plates/shortfalls.hpp"
 #include "parts/shop/bolts.hpp"
 #include "parts/shop/workshop_list.hpp"
 
@@ -291,11 +293,15 @@ void add_rims(const Fitting& fitting) {
   if (!job.options.rim) return;
   const RimOptions& rim = *job.options.rim;
   const double top = job.channel.wall_height;
+  std::vector<std::string> bare;
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
     const Span span = rim_room(job, fitting.units[i].span);
     auto part = along_track(job, span, {top - rim.thickness, top}, rim.width,
                             {-outside(job) - rim.width, outside(job)});
-    if (!part) continue;
+    if (!part) {
+      bare.push_back(std::to_string(i + 1));
+      continue;
+    }
     part->thickness = rim.thickness;
     part->name = "rim" + suffix(fitting, i);
     if (job.options.cover) {
@@ -311,6 +317,12 @@ void add_rims(const Fitting& fitting) {
     }
     add_part(fitting.workshop, *part, kFittingColour);
   }
+  if (bare.empty()) return;
+  add_shortfall({"rim", "rim: none on unit" + std::string(bare.size() > 1 ? "s " : " ") + listed(bare),
+                 "The tops of its walls, " + length_text(top, 3) +
+                     " high, fold over where the track bends with a smaller radius.",
+                 "lower walls, a larger radius there, or no rim"},
+                fitting.workshop);
 }
 
 namespace {
@@ -344,12 +356,14 @@ void add_channel_stiffeners(const Fitting& fitting) {
   pattern.region = frame_region(job, stiffener.width, top, true);
   part.body = Prism{pattern.region, stiffener.thickness};
   part.pattern = std::move(pattern);
+  StiffenerPlaces places;
   for (const Unit& unit : fitting.units) {
     const double room = unit.span.to - unit.span.from;
     const double count = std::ceil(room / stiffener.spacing - 1e-9);
     for (double k = 1.0; k < count; k += 1.0) {
       const double about = unit.span.from + room * k / count;
       const double half = 0.5 * stiffener.thickness + 15e-3;
+      places.ask(about);
       const auto at = stiffener_place(fitting, unit, about, half);
       // Where the floor bends within the plate's thickness, the gap would close.
       if (!at || std::fabs(job.track.at(*at).curvature) * stiffener.thickness * stiffener.thickness > gap)
@@ -358,8 +372,10 @@ void add_channel_stiffeners(const Fitting& fitting) {
       place.origin = place.origin - 0.5 * stiffener.thickness * place.z;
       part.places.push_back(place);
       fitting.below.add(*at - 0.5 * stiffener.thickness, *at + 0.5 * stiffener.thickness);
+      places.found();
     }
   }
+  places.tell_missing(job.options, fitting.workshop);
   if (part.places.empty()) return;
   weigh(part);
   add_in_pieces(part, frame_line(job, stiffener.width, top), false, job.options, kFittingColour,
@@ -667,6 +683,7 @@ void add_channel_lugs(const Fitting& fitting) {
   const double side = outside(job) + (job.options.rim ? job.options.rim->width : 0.0);
   const std::vector<UnitMass> masses =
       masses_of(fitting.workshop, job.track, job.placement, spans_of(fitting.units));
+  UnitsWithoutLugs without;
   for (std::size_t i = 0; i < fitting.units.size(); ++i) {
     const Span room = between_frames(job, fitting.units[i].span);
     const Vec3 centre = (1.0 / masses[i].mass) * masses[i].moment;
@@ -676,27 +693,31 @@ void add_channel_lugs(const Fitting& fitting) {
                            ? above(fitting, centre, within, fitting.units[i].span, {low, top + kLugHigh})
                            : std::nullopt;
     if (!place) {
-      fitting.workshop.notes.push_back("Unit " + std::to_string(i + 1) + ": " +
-                                       rounded_text(masses[i].mass, 4) + " kg, no place for lugs.");
+      without.no_place(i, masses[i].mass);
       continue;
     }
     const double at = *place;
     // Where the top folds, no lug follows it.
     const auto outline = band(job.track, {at - kLugHalf, at + kLugHalf}, low, top + kLugHigh);
-    if (!outline) continue;
     const TrackFrame frame = frame_at(job.track, at);
-    PlaneRegion region{*outline, {}, {{frame.at + (top + 0.55 * kLugHigh) * frame.up, 0.5 * lifting.hole}}};
-    if (!faults_of(region).empty()) continue;
+    PlaneRegion region{outline.value_or(ArcPath()),
+                       {},
+                       {{frame.at + (top + 0.55 * kLugHigh) * frame.up, 0.5 * lifting.hole}}};
+    if (!outline || !faults_of(region).empty()) {
+      without.no_room(i, masses[i].mass);
+      continue;
+    }
     ShopPart part = upright_plate(job, region, lifting.thickness, {-side - lifting.thickness, side});
     part.name = "lug" + suffix(fitting, i);
     FlatPattern pattern;
     pattern.region = std::get<Prism>(part.body).region;
     part.pattern = std::move(pattern);
     add_part(fitting.workshop, part, kFittingColour);
-    fitting.workshop.notes.push_back("Unit " + std::to_string(i + 1) + ": " +
-                                     rounded_text(masses[i].mass, 4) + " kg, lugs at " + length_text(at, 4) +
-                                     " along the track, beside its centre of gravity.");
+    const double off = std::fabs(dot(centre - in_space(job.placement, {}), along(job.placement)) -
+                                 (frame.at.x + top * frame.up.x));
+    note_lugs(i, masses[i].mass, at, off, fitting.workshop);
   }
+  without.tell(2.0 * kLugHalf, "The tops of the walls fold over where they would stand.", fitting.workshop);
 }
 
 }  // namespace glissade::parts

@@ -8,6 +8,7 @@
 #include "parts/plates/calm_joints.hpp"
 #include "parts/plates/channel_strips.hpp"
 #include "parts/plates/corners.hpp"
+#include "parts/shop/workshop_list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -206,7 +207,7 @@ double kink_for_speed(const ArcSpline& track, const BendOptions& bend,
   return turning / count;
 }
 
-void note_missed_speed(const BendOptions& bend, const std::vector<Facets>& units, double least,
+void tell_missed_speed(const BendOptions& bend, const std::vector<Facets>& units, double least,
                        const std::string& or_else, const Body& body, double gravity, double design_speed,
                        Workshop& workshop) {
   if (bend.rule != FacetRule::speed_loss) return;
@@ -224,10 +225,12 @@ void note_missed_speed(const BendOptions& bend, const std::vector<Facets>& units
   // Up to tenths of a percent, with room for the ends of units.
   constexpr double kTenth = 1e-3;  // taste: of a percent
   const double would_do = kTenth * std::ceil(kMissed * *reached / kTenth);
-  workshop.notes.push_back(
-      "speed_loss: " + share(bend.value, 4) + " is not reached: " + std::to_string(bends) + " bends cost " +
-      share(*reached, 2) + " of the exit speed. Flats are as short as the shop makes them, " +
-      length_text(least, 3) + ". Try: speed_loss: " + share(would_do, 4) + or_else + ".");
+  add_shortfall({"bend.speed_loss",
+                 "speed_loss: " + share(bend.value, 4) + " is not reached: " + std::to_string(bends) +
+                     " bends cost " + share(*reached, 2) + " of the exit speed",
+                 "Flats are as short as the shop makes them, " + length_text(least, 3) + ".",
+                 "speed_loss: " + share(would_do, 4) + or_else},
+                workshop);
 }
 
 std::vector<double> joints_of(const ArcSpline& track, const SplitOptions& split, std::size_t count) {

@@ -69,7 +69,7 @@ struct Unit {
 /// A note where bends cost more of the exit speed than is asked for: how much, why, and what would do.
 /// @param least    length of a flat that the shop makes [m]
 /// @param or_else  another way out, after a comma; may be empty
-void note_missed_speed(const BendOptions& bend, const std::vector<Facets>& units, double least,
+void tell_missed_speed(const BendOptions& bend, const std::vector<Facets>& units, double least,
                        const std::string& or_else, const Body& body, double gravity, double design_speed,
                        Workshop& workshop);
 

@@ -7,6 +7,7 @@
 #include "parts/bodies/body_places.hpp"
 #include "parts/plates/plate_unit.hpp"
 #include "parts/plates/shell.hpp"
+#include "parts/plates/shortfalls.hpp"
 #include "parts/shop/workshop_list.hpp"
 
 #include <algorithm>
@@ -27,7 +28,6 @@ constexpr double kMostGrip = 0.3;    // of the outside's length
 constexpr double kDeep = 60e-3;      // from the outside, at the lower end [m]
 constexpr double kLugAside = 15e-3;  // from what else stands there [m]
 constexpr double kOffFrame = 2e-3;   // of lugs [m]
-constexpr double kOffPlumb = 20e-3;  // of lugs, told from there on [m]
 
 /// The outside from where a lug begins.
 struct Seat {
@@ -134,9 +134,8 @@ void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners) 
   const LiftingOptions& lifting = *shell.options.lifting;
   const double half = 0.5 * lifting.thickness;
   const std::vector<UnitMass> masses = masses_of(shell.workshop, shell.track, shell.placement, shell.units);
+  UnitsWithoutLugs without;
   for (std::size_t i = 0; i < shell.units.size(); ++i) {
-    const std::string unit =
-        "Unit " + std::to_string(i + 1) + ": " + rounded_text(masses[i].mass, 4) + " kg, ";
     const Vec3 mean = (1.0 / masses[i].mass) * masses[i].moment - in_space(shell.placement, {});
     const Vec2 centre{dot(mean, along(shell.placement)), mean.z};
     const auto eye_at = [&](const TrackFrame& frame) {
@@ -155,7 +154,7 @@ void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners) 
     };
     const auto at = best_seat(shell, {half + kLugAside, half}, between_frames(shell, shell.units[i]), cost);
     if (!at) {
-      shell.workshop.notes.push_back(unit + "no place for lugs.");
+      without.no_place(i, masses[i].mass);
       continue;
     }
     const SectionOutside outside = shell.outside(*at);
@@ -163,7 +162,7 @@ void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners) 
     const LugShape left = lug_on_left(shell, outside, eye);
     const LugShape right = lug_on_left(shell, parts::mirrored(outside), eye);
     if (!faults_of(left.region).empty() || !faults_of(right.region).empty()) {
-      shell.workshop.notes.push_back(unit + "no lugs: the section leaves them no room.");
+      without.no_room(i, masses[i].mass);
       continue;
     }
     const std::string suffix = unit_suffix(shell, i);
@@ -173,11 +172,10 @@ void add_lugs(const Shell& shell, const std::vector<StandingPlate>& stiffeners) 
              cross_plate(shell, "right_lug" + suffix, mirrored(right.region), lifting.thickness, *at),
              kFittingColour);
     shell.taken.add(*at - half, *at + half);
-    const double off = off_plumb(*at);
-    shell.workshop.notes.push_back(unit + "lugs at " + length_text(*at, 4) + " along the track, " +
-                                   (off > kOffPlumb ? length_text(off, 3) + " from plumb above" : "beside") +
-                                   " its centre of gravity.");
+    note_lugs(i, masses[i].mass, *at, off_plumb(*at), shell.workshop);
   }
+  without.tell(2.0 * (half + kLugAside), "The outside of the section leaves them no room below its tops.",
+               shell.workshop);
 }
 
 }  // namespace glissade::parts

@@ -4,6 +4,7 @@
 
 #include "parts/plates/frame_pieces.hpp"
 #include "parts/plates/shell.hpp"
+#include "parts/plates/shortfalls.hpp"
 #include "parts/shop/workshop_list.hpp"
 
 #include <algorithm>
@@ -66,15 +67,14 @@ std::vector<StandingPlate> add_stiffeners(const Shell& shell) {
   const Span heights{shell.lowest - out, shell.highest + (shell.ring ? out : 0.0)};
   const std::vector<StandingPlate> frames = standing_frames(shell);
   std::vector<StandingPlate> standing;
-  int wanted = 0;
-  int count = 0;
+  StiffenerPlaces places;
   for (const Span& unit : shell.units) {
     const double whole = unit.to - unit.from;
     const double gaps = std::ceil(whole / stiffener.spacing - 1e-9);
     const Span room = between_frames(shell, unit);
     for (double k = 1.0; k < gaps; k += 1.0) {
-      ++wanted;
       const double about = unit.from + whole * k / gaps;
+      places.ask(about);
       const auto cost = [&](double s) {
         const StandingPlate here{frame_of(shell, s), half, heights};
         return all_apart(here, frames) && all_apart(here, standing) ? std::fabs(s - about) : kNoPlace;
@@ -91,14 +91,10 @@ std::vector<StandingPlate> add_stiffeners(const Shell& shell) {
       add_in_pieces(part, ring->line, false, shell.options, kFittingColour, shell.workshop);
       shell.taken.add(*at - half, *at + half);
       standing.push_back({frame_of(shell, *at), half, heights});
-      ++count;
+      places.found();
     }
   }
-  if (count < wanted) {
-    shell.workshop.notes.push_back(
-        std::to_string(wanted - count) + " of " + std::to_string(wanted) +
-        " stiffeners find no place: the plates bend within their thickness, or something else stands there.");
-  }
+  places.tell_missing(shell.options, shell.workshop);
   return standing;
 }
 

@@ -396,7 +396,7 @@ WorkshopBuild make_prints(const Centerline& track, const CrossSection& section, 
   const Motion smooth(CenterlinePtr(CenterlinePtr(), &track), body, gravity);
   const PrintPlan plan = plan_prints(job);
   const Hold hold = hold_joints(job, plan);
-  const std::vector<Stand> stands = make_stands(job, plan.joints);
+  const std::vector<Stand> stands = make_stands(job, plan.joints, build.workshop);
   std::vector<PrintUnit> units;
   for (std::size_t i = 0; i + 1 < plan.joints.size(); ++i) {
     units.push_back(make_unit(job, plan, hold, i));

@@ -10,6 +10,7 @@
 #include "glissade/solid/mesh_facts.hpp"
 
 #include "parts/bodies/piece_mesh.hpp"
+#include "parts/shop/workshop_list.hpp"
 #include "parts/supports/ground.hpp"
 #include "solid/cap_triangulation.hpp"
 
@@ -65,14 +66,49 @@ struct Place {
   std::string what;
 };
 
+/// Where stands are asked for.
+struct Places {
+  std::vector<Place> free;
+  std::vector<Place> steep;  ///< where the run is too steep for one
+  double steepest = 0.0;     ///< slope angle of the run above those [rad]
+};
+
+/// Puts a place where it belongs.
+void add_place(const PrintJob& job, const Underside& underside, Place place, Places& places) {
+  const double slope = std::fabs(job.track.slope_angle(underside.above(place.x)));
+  if (slope <= job.options.stands->steepest.radians()) {
+    places.free.push_back(std::move(place));
+    return;
+  }
+  places.steep.push_back(std::move(place));
+  places.steepest = std::max(places.steepest, slope);
+}
+
+/// Says where the run is too steep for the stands that are asked for.
+void tell_steep(const PrintJob& job, const Places& places, Workshop& workshop) {
+  if (places.steep.empty()) return;
+  constexpr std::size_t kTold = 6;  // taste: of places
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < places.steep.size() && i < kTold; ++i)
+    words.push_back(places.steep[i].what + ", " + length_text(places.steep[i].x, 3) + " out");
+  if (places.steep.size() > kTold) words.push_back(std::to_string(places.steep.size() - kTold) + " more");
+  std::string listed;
+  for (const std::string& word : words) listed += (listed.empty() ? "" : "; ") + word;
+  const Angle steepest = Angle::from_radians(places.steepest);
+  const Angle enough = Angle::from_degrees(std::ceil(steepest.degrees()));
+  add_shortfall({"stands.steepest",
+                 "steepest: " + std::to_string(places.steep.size()) + " of " +
+                     std::to_string(places.steep.size() + places.free.size()) + " stands find no place (" +
+                     listed + "), where the run is up to " + angle_text(steepest, 3) + " steep",
+                 "None stands below a run steeper than " + angle_text(job.options.stands->steepest, 3) + ".",
+                 "steepest: " + angle_text(enough) + ", or a stand of your own there"},
+                workshop);
+}
+
 /// Joints, both ends, and places between.
-std::vector<Place> places_of(const PrintJob& job, const Underside& underside,
-                             const std::vector<double>& joints) {
+Places places_of(const PrintJob& job, const Underside& underside, const std::vector<double>& joints) {
   const StandOptions& options = *job.options.stands;
   const double inset = 0.5 * options.thickness + 2e-3;
-  const auto upright = [&](double s) {
-    return std::fabs(job.track.slope_angle(s)) <= options.steepest.radians();
-  };
   if (underside.at(job.track.length()).x - underside.at(0.0).x < 2.0 * inset) {
     throw InputError({"stands.thickness",
                       "thickness: stands of " + length_text(options.thickness) +
@@ -80,27 +116,27 @@ std::vector<Place> places_of(const PrintJob& job, const Underside& underside,
                           length_text(underside.at(job.track.length()).x - underside.at(0.0).x, 3),
                       "One stands below it at least.", "a smaller thickness, or stands: none"});
   }
-  std::vector<Place> fixed;
+  Places fixed;
   const double start = underside.at(0.0).x + inset;
   const double finish = underside.at(job.track.length()).x - inset;
-  if (upright(underside.above(start))) fixed.push_back({start, "start"});
+  add_place(job, underside, {start, "start"}, fixed);
   for (std::size_t i = 1; i + 1 < joints.size(); ++i) {
     const double x = underside.at(joints[i]).x;
-    if (upright(joints[i]) && x > start + inset && x < finish - inset)
-      fixed.push_back({x, "joint " + std::to_string(i)});
+    if (x > start + inset && x < finish - inset)
+      add_place(job, underside, {x, "joint " + std::to_string(i)}, fixed);
   }
-  if (finish > start + inset && upright(underside.above(finish))) fixed.push_back({finish, "finish"});
-  std::vector<Place> places;
-  for (const Place& place : fixed) {
-    if (!places.empty()) {
-      const double from = places.back().x;
+  if (finish > start + inset) add_place(job, underside, {finish, "finish"}, fixed);
+  Places places;
+  places.steep = std::move(fixed.steep);
+  places.steepest = fixed.steepest;
+  for (const Place& place : fixed.free) {
+    if (!places.free.empty()) {
+      const double from = places.free.back().x;
       const double count = std::ceil((place.x - from) / options.spacing - 1e-9);
-      for (double k = 1.0; k < count; k += 1.0) {
-        const double x = from + (place.x - from) * k / count;
-        if (upright(underside.above(x))) places.push_back({x, "stretch"});
-      }
+      for (double k = 1.0; k < count; k += 1.0)
+        add_place(job, underside, {from + (place.x - from) * k / count, "stretch"}, places);
     }
-    places.push_back(place);
+    places.free.push_back(place);
   }
   return places;
 }
@@ -407,7 +443,7 @@ void require_sound(const PrintJob& job, const Stand& stand) {
 
 }  // namespace
 
-std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& joints) {
+std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& joints, Workshop& workshop) {
   if (!job.options.stands) return {};
   const StandOptions& options = *job.options.stands;
   const Underside underside(job);
@@ -415,7 +451,9 @@ std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& j
   const std::array<double, 4> across = {job.face.low().x - options.fit - kCheeks,
                                         job.face.low().x - options.fit, job.face.high().x + options.fit,
                                         job.face.high().x + options.fit + kCheeks};
-  const std::vector<Place> places = places_of(job, underside, joints);
+  Places found = places_of(job, underside, joints);
+  tell_steep(job, found, workshop);
+  const std::vector<Place> places = std::move(found.free);
   std::vector<Foot> feet;
   for (const Place& place : places)
     feet.push_back({place.x, frame_at(job.track, underside.above(place.x)).at.x});

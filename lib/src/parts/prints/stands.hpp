@@ -31,7 +31,9 @@ inline constexpr double kStandPin = 4e-3;       ///< diameter [m]
 inline constexpr double kStandPinDepth = 6e-3;  ///< of each hole [m]
 
 /// Stands below joints and ends, and between them where they are too far apart.
+/// @param workshop  is told which of them find no place
 /// @throws InputError where the ground lies too near the run or above it, or its line ends before a stand: names the place
-[[nodiscard]] std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& joints);
+[[nodiscard]] std::vector<Stand> make_stands(const PrintJob& job, const std::vector<double>& joints,
+                                             Workshop& workshop);
 
 }  // namespace glissade::parts

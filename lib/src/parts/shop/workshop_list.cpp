@@ -65,6 +65,32 @@ void add_note(std::string note, Workshop& workshop) {
     workshop.notes.push_back(std::move(note));
 }
 
+void add_shortfall(Issue shortfall, Workshop& workshop) {
+  std::vector<Issue>& all = workshop.shortfalls;
+  if (std::find(all.begin(), all.end(), shortfall) == all.end()) all.push_back(std::move(shortfall));
+}
+
+void tell_short_plate(const std::string& name, double from, double to, double length, Workshop& workshop) {
+  add_shortfall({"cross_section",
+                 "cross_section: the " + name + " goes from " + length_text(from, 4) + " to " +
+                     length_text(to, 4) + " along the track, which is " + length_text(length, 4) + " long",
+                 "Beyond, its rim would fold over: the track bends there with a smaller radius than the rim "
+                 "is high above it.",
+                 "lower walls, or a larger radius there"},
+                workshop);
+}
+
+void tell_moved_opening(double asked, double at, const std::string& why, Workshop& workshop) {
+  constexpr double kTold = 0.5e-3;  // [m]
+  if (std::fabs(at - asked) < kTold) return;
+  add_shortfall({"inspection",
+                 "at: the opening that is asked for at " + length_text(asked, 4) + " along the track is at " +
+                     length_text(at, 4) + ", " + length_text(std::fabs(at - asked), 2) +
+                     (at > asked ? " farther down" : " farther up"),
+                 why, "at: " + length_text(at, 4) + " if that will do, or another one"},
+                workshop);
+}
+
 void add_item(Workshop& workshop, BoughtInItem item) {
   if (item.quantity == 0) return;
   for (BoughtInItem& other : workshop.items) {

@@ -26,6 +26,16 @@ void take_back(Workshop& workshop, ShopPart part, const Frame& place);
 
 /// Adds a note that stands there once.
 void add_note(std::string note, Workshop& workshop);
+/// Says what is not made as it was asked for, once.
+/// @param shortfall  all four parts of it; `where` is a key below `fabrication`
+void add_shortfall(Issue shortfall, Workshop& workshop);
+/// Of a plate that begins or ends short of the track, since its rim would fold over.
+/// @param from    along the track, as `to` and its `length` [m]
+void tell_short_plate(const std::string& name, double from, double to, double length, Workshop& workshop);
+/// Of an opening that is not where it is asked for; nothing where it is so to half a millimetre.
+/// @param asked  along the track, as `at` [m]
+/// @param why    one sentence
+void tell_moved_opening(double asked, double at, const std::string& why, Workshop& workshop);
 
 /// Adds what is bought; to the count of its like where there is one.
 void add_item(Workshop& workshop, BoughtInItem item);

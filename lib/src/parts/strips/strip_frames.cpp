@@ -189,7 +189,10 @@ void add_strip_frames(const StripJob& job, const std::optional<BentStrips>& bent
                       const std::vector<double>& joints, Workshop& workshop) {
   if (!job.options.flanges.wanted) return;
   if (!job.section.convex) {
-    workshop.notes.emplace_back("The section is hollow below: no frame fits round it, ends are welded.");
+    add_shortfall({"flanges", "flanges: no frames at the ends of units, which are to be welded",
+                   "The section is hollow below: no frame fits round it.",
+                   "flanges: none if that is meant, or a section that is nowhere hollow below"},
+                  workshop);
     return;
   }
   if (job.options.flanges.section == FlangeSection::angle) {

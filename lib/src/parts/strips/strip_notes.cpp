@@ -6,6 +6,7 @@
 #include "parts/plates/seams.hpp"
 #include "parts/plates/section_corners.hpp"
 #include "parts/shop/equal_parts.hpp"
+#include "parts/shop/workshop_list.hpp"
 #include "parts/strips/strip_works.hpp"
 
 #include <algorithm>
@@ -47,7 +48,7 @@ std::string mirrored_pairs(const Workshop& workshop) {
 }
 
 /// Where plates begin or end short of the track.
-void note_short_plates(const StripJob& job, const std::vector<Strip>& strips, Workshop& workshop) {
+void tell_short_plates(const StripJob& job, const std::vector<Strip>& strips, Workshop& workshop) {
   for (std::size_t p = 0; p < job.section.plates.size(); ++p) {
     Span span{job.track.length(), 0.0};
     for (const Strip& strip : strips) {
@@ -55,9 +56,7 @@ void note_short_plates(const StripJob& job, const std::vector<Strip>& strips, Wo
       span = {std::min(span.from, strip.span.from), std::max(span.to, strip.span.to)};
     }
     if (span.from == 0.0 && span.to == job.track.length()) continue;
-    workshop.notes.push_back("The " + job.section.plates[p].name + " goes from " + length_text(span.from, 4) +
-                             " to " + length_text(span.to, 4) +
-                             " along the track: beyond, its rim would fold over.");
+    tell_short_plate(job.section.plates[p].name, span.from, span.to, job.track.length(), workshop);
   }
 }
 
@@ -129,7 +128,7 @@ void add_strip_notes(const StripJob& job, const std::optional<BentStrips>& bent,
     workshop.notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
                              length_text(job.section.departure, 3) + ".");
   }
-  note_short_plates(job, strips, workshop);
+  tell_short_plates(job, strips, workshop);
   double seams = 0.0;
   for (const Strip& strip : strips) {
     const auto& all = job.section.seams;

@@ -428,14 +428,12 @@ void add_strip_lids(const StripJob& job, const std::vector<StripWindow>& windows
              kFittingColour);
     add_bolts(workshop, window.bolt, 2.0 * job.section.thickness, holes.size(), "lids");
     const double at = 0.5 * (window.along.from + window.along.to);
-    constexpr double kTold = 0.5e-3;  // [m]
-    if (std::fabs(at - window.asked) < kTold) continue;
-    workshop.notes.push_back(
-        "The opening that is asked for at " + length_text(job.on_track(window.asked), 4) +
-        " along the track is at " + length_text(job.on_track(at), 4) +
-        (job.bent()     ? ", its ends off the bends of its plate."
-         : job.widens() ? ", on one arc of its plate and where the width does not change."
-                        : ", on one arc of its plate."));
+    tell_moved_opening(job.on_track(window.asked), job.on_track(at),
+                       job.bent()     ? "Its ends are off the bends of its plate, and clear of frames."
+                       : job.widens() ? "With its lid it lies on one arc of its plate, clear of frames, "
+                                        "where the width does not change."
+                                      : "With its lid it lies on one arc of its plate, clear of frames.",
+                       workshop);
   }
 }
 

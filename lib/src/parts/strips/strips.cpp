@@ -273,7 +273,7 @@ WorkshopBuild make_strips(const ArcSpline& track, const PlateSection& section, c
   build.proof = prove_strips(job, bent, strips, build.joints, cut, workshop);
   add_strip_notes(job, bent, build.proof, strips, workshop);
   if (bent) {
-    note_missed_speed(options.bend, bent->facets(), least_bent_flat(job), ", or floor: rolled", body, gravity,
+    tell_missed_speed(options.bend, bent->facets(), least_bent_flat(job), ", or floor: rolled", body, gravity,
                       design.exit_speed(), workshop);
   }
   if (!cut.empty()) note_differences(build.proof, "mitred plates", workshop);

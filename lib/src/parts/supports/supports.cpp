@@ -207,41 +207,111 @@ void require_room_for_legs(const Trestle& trestle, const SupportOptions& support
        "a lower ground, or a ground line that is lower there"});
 }
 
-/// The least slope angle, which an arc has at one of its ends [rad].
-double flattest_of(const ArcSpline& track) {
-  double least = track.slope_angle(track.length());
-  for (const TrackArc& arc : track.arcs()) least = std::min(least, track.slope_angle(arc.start));
+/// The least slope angle along a stretch, which an arc has at one of its ends [rad].
+double flattest_of(const ArcSpline& track, const Span& span) {
+  double least = std::min(track.slope_angle(span.from), track.slope_angle(span.to));
+  for (const TrackArc& arc : track.arcs()) {
+    if (arc.start > span.from && arc.start < span.to) least = std::min(least, track.slope_angle(arc.start));
+  }
   return least;
 }
 
-/// Says where trestles are farther apart than is asked for, and where track sticks out too far beyond them.
-void note_wide_spans(const Trestles& all, const Shell& shell) {
-  constexpr double kTold = 1e-3;  // [m]
-  if (all.empty()) return;
+constexpr double kTold = 1e-3;  // taste: of what is wider than asked for [m]
+
+/// A spacing that a row keeps to, with some room: its places are looked for anew.
+/// @param least  without room [m]
+std::string spacing_that_does(double least) {
+  constexpr double kRoom = 20e-3;   // budget: two steps of the places that are looked at [m]
+  constexpr double kDigits = 0.01;  // taste: of what is told [m]
+  return "spacing: " + length_text(kDigits * std::ceil((least + kRoom) / kDigits), 6);
+}
+
+/// Says where trestles are farther apart than is asked for.
+void tell_wide_spans(const Trestles& all, const Shell& shell) {
   const double spacing = shell.options.supports->spacing;
-  const char* const why = ": frames, stiffeners, bends or other trestles leave no place ";
   std::size_t widest = 0;
+  std::size_t wide = 0;
   const auto span = [&](std::size_t i) { return all[i].place.at - all[i - 1].place.at; };
   for (std::size_t i = 1; i < all.size(); ++i) {
+    if (!(span(i) > spacing + kTold)) continue;
+    ++wide;
     if (widest == 0 || span(i) > span(widest)) widest = i;
   }
-  if (widest > 0 && span(widest) > spacing + kTold) {
-    shell.workshop.notes.push_back(
-        "Trestles are up to " + length_text(span(widest), 3) + " apart along the track, from " +
-        length_text(all[widest - 1].place.at, 4) + " to " + length_text(all[widest].place.at, 4) +
-        ", for spacing: " + length_text(spacing) + why + "between.");
-  }
+  if (wide == 0) return;
+  const std::string others =
+      wide == 1 ? "" : ", the widest of " + std::to_string(wide) + " spans that are wider than that";
+  add_shortfall(
+      {"supports.spacing",
+       "spacing: supports " + std::to_string(widest) + " and " + std::to_string(widest + 1) + " are " +
+           length_text(span(widest), 3) + " apart along the track, at " +
+           length_text(all[widest - 1].place.at, 4) + " and " + length_text(all[widest].place.at, 4) +
+           ", for " + length_text(spacing) + others,
+       "Frames, stiffeners, openings, bends or other trestles leave no place between them.",
+       spacing_that_does(span(widest)) + ", or fewer of these there (split.longest, stiffeners.spacing)"},
+      shell.workshop);
+}
+
+/// Says where track sticks out too far beyond an end of the row.
+/// @param beyond  the stretch beyond it
+/// @param where   "above support 1"
+void tell_end(const Trestles& all, const Shell& shell, const Span& beyond, const std::string& where) {
+  const SupportOptions& supports = *shell.options.supports;
   const double length = shell.track.length();
-  const auto tell = [&](double out, double at, const char* way) {
-    if (!(out > 0.5 * spacing + kTold)) return;
-    shell.workshop.notes.push_back("The track sticks out by " + length_text(out, 3) + " along it " + way +
-                                   " trestle, at " + length_text(at, 4) + ", for " +
-                                   length_text(0.5 * spacing) + ", half of spacing: " + length_text(spacing) +
-                                   why + "nearer to its end, or it is steeper there than " +
-                                   angle_text(shell.options.supports->steepest, 3) + ".");
-  };
-  tell(all.front().place.at, all.front().place.at, "above the first");
-  tell(length - all.back().place.at, all.back().place.at, "below the last");
+  const double out = beyond.to - beyond.from;
+  const double most = 0.5 * supports.spacing;
+  if (!(out > most + kTold)) return;
+  const bool first = beyond.from == 0.0;
+  // Where a trestle would have to stand.
+  const Span room = first ? Span{0.0, most} : Span{length - most, length};
+  const Angle flattest = Angle::from_radians(flattest_of(shell.track, room));
+  const bool steep = flattest > supports.steepest;
+  add_shortfall({"supports.spacing",
+                 "spacing: the track sticks out by " + length_text(out, 3) + " " + where + ", at " +
+                     length_text(first ? beyond.to : beyond.from, 4) + " along it, for " + length_text(most) +
+                     ", half of " + length_text(supports.spacing),
+                 steep ? "Nearer to its end it is " + angle_text(flattest, 3) +
+                             " steep or steeper, and a trestle stands below no more than " +
+                             angle_text(supports.steepest, 3) + " (steepest)."
+                       : "Frames, stiffeners, openings, bends or other trestles leave no place nearer to its "
+                         "end, or it is "
+                         "steeper than " +
+                             angle_text(supports.steepest, 3) + " (steepest) there.",
+                 spacing_that_does(2.0 * out) + ", " + (steep ? "a larger steepest, " : "") +
+                     "or a support of your own that holds the end"},
+                shell.workshop);
+}
+
+/// Says where trestles are farther apart than is asked for, and where track sticks out too far beyond them.
+void tell_spans(const Trestles& all, const Shell& shell) {
+  if (all.empty()) return;
+  tell_wide_spans(all, shell);
+  tell_end(all, shell, {0.0, all.front().place.at}, "above support 1");
+  tell_end(all, shell, {all.back().place.at, shell.track.length()},
+           "below support " + std::to_string(all.size()));
+}
+
+/// Says that there is no trestle at all.
+/// @throws InputError where the track is too steep for one everywhere
+void tell_none(const Shell& shell) {
+  const SupportOptions& supports = *shell.options.supports;
+  const Angle flattest = Angle::from_radians(flattest_of(shell.track, {0.0, shell.track.length()}));
+  if (flattest > supports.steepest) {
+    throw InputError(
+        {"supports.steepest",
+         "steepest: the track is nowhere flatter than " + angle_text(supports.steepest, 3),
+         "A trestle under a steeper track would carry nothing.",
+         "a steepest above its least slope angle, " + angle_text(flattest, 3) + ", or no supports"});
+  }
+  add_shortfall(
+      {"supports",
+       "supports: no trestle finds a place along the track, which is " +
+           length_text(shell.track.length(), 4) + " long",
+       "Its saddles take " + length_text(2.0 * kSaddleHalf) +
+           " of it, on bent plates and tubes 40 mm of one flat, no steeper than " +
+           angle_text(supports.steepest, 3) + " (steepest), clear of frames, stiffeners and openings.",
+       "fewer of these (split.longest, stiffeners.spacing), fewer bends, a larger steepest, or no "
+       "supports"},
+      shell.workshop);
 }
 
 }  // namespace
@@ -268,17 +338,8 @@ void add_supports(const Shell& shell, std::vector<SettingOutPoint>& rows) {
         shell.track, joints, shell.placement,
         {"support " + text, one.trestle.x, one.trestle.ground + supports.grout, one.place.at}));
   }
-  note_wide_spans(all, shell);
-  if (!all.empty()) return;
-  if (flattest_of(shell.track) <= supports.steepest.radians()) {
-    shell.workshop.notes.emplace_back(
-        "No trestle finds a place that is flat and straight enough for its saddles.");
-    return;
-  }
-  throw InputError({"supports.steepest",
-                    "steepest: the track is nowhere flatter than " + angle_text(supports.steepest, 3),
-                    "A trestle under a steeper track would carry nothing.",
-                    "a steepest above its least slope angle, or no supports"});
+  tell_spans(all, shell);
+  if (all.empty()) tell_none(shell);
 }
 
 }  // namespace glissade::parts

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 
 #include "core/least_rectangle.hpp"
 #include "core/millimetres.hpp"
@@ -102,7 +103,7 @@ double add_lining(const Lining& lining, Workshop& workshop) {
     volume += part.volume;
     add_part(workshop, std::move(part), kDeckColour);
   }
-  for (std::string& note : lining.notes()) workshop.notes.push_back(std::move(note));
+  lining.tell(workshop);
   return volume;
 }
 
@@ -313,7 +314,7 @@ std::size_t add_boards(const TimberJob& job, const std::vector<Leg>& legs, const
                        Workshop& workshop) {
   std::size_t boards = 0;
   if (legs.empty()) return boards;
-  for (ShopPart& part : brace_parts(job, legs, plan)) {
+  for (ShopPart& part : brace_parts(job, legs, plan, workshop)) {
     boards += part.quantity();
     add_part(workshop, std::move(part), kLegColour);
   }
@@ -321,17 +322,26 @@ std::size_t add_boards(const TimberJob& job, const std::vector<Leg>& legs, const
 }
 
 /// Says which legs and boards are longer than what lumber comes in.
-void note_long_lumber(const TimberJob& job, Workshop& workshop) {
-  std::string listed;
+void tell_long_lumber(const TimberJob& job, Workshop& workshop) {
+  std::vector<std::string> names;
+  double most = 0.0;
   for (const ShopPart& part : workshop.parts) {
     if (!part.stands) continue;
     // Braces lie at a slant in their patterns.
-    if (core::least_size(part.pattern->region.outline).x <= job.options.split.longest) continue;
-    listed += (listed.empty() ? "" : ", ") + part.name;
+    const double length = core::least_size(part.pattern->region.outline).x;
+    if (length <= job.options.split.longest) continue;
+    names.push_back(part.name + " (" + length_text(length, 3) + ")");
+    most = std::max(most, length);
   }
-  if (listed.empty()) return;
-  workshop.notes.push_back("Longer than the " + length_text(job.options.split.longest) +
-                           " of split.longest, to be spliced: " + listed + ".");
+  if (names.empty()) return;
+  constexpr double kDigits = 0.1;  // taste: of what is told [m]
+  add_shortfall({"split.longest",
+                 "longest: " + listed(names) + (names.size() == 1 ? " is" : " are") + " longer than " +
+                     length_text(job.options.split.longest) + ", and to be spliced",
+                 "No splice of legs and their boards is designed here: it weakens them where it is.",
+                 "longest: " + length_text(kDigits * std::ceil(most / kDigits), 6) +
+                     " if the lumber comes so long, a higher ground, or splices of your own"},
+                workshop);
 }
 
 /// Heights of the lines that are set out below the floor, plumb below it, and where they end: square to the track, where no
@@ -475,7 +485,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   const std::vector<std::vector<DeckRow>> rows = lining ? lining->rows() : deck_rows(job);
   const std::vector<CrossMember> members = cross_members(job, rows);
   const BearerPlan bearers = plan_bearers(job);
-  const std::vector<Leg> legs = plan_legs(job);
+  const std::vector<Leg> legs = plan_legs(job, build.workshop);
   Workshop& workshop = build.workshop;
   workshop.tolerance = "Cut to 1 mm; edges of the running surface broken";
   double made = 0.0;
@@ -491,7 +501,7 @@ WorkshopBuild make_timber(const Centerline& track, const section::Measures& meas
   add_bearers(job, bearers, workshop);
   add_legs(job, legs, bearers, workshop);
   const std::size_t boards = add_boards(job, legs, bearers, workshop);
-  note_long_lumber(job, workshop);
+  tell_long_lumber(job, workshop);
   fix_frame(job, {members.size(), bearers.across.size(), legs.size(), boards}, workshop);
   workshop.setting_out = setting_out(job.track, bearers.joints, placement);
   set_out_frame(job, bearers, legs, workshop);

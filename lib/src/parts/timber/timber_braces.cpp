@@ -1,7 +1,11 @@
 #include "parts/timber/timber_braces.hpp"
 
+#include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
+
 #include "parts/bodies/body_moments.hpp"
 #include "parts/plates/plate_unit.hpp"
+#include "parts/shop/workshop_list.hpp"
 #include "parts/supports/ground.hpp"
 
 #include <algorithm>
@@ -193,7 +197,8 @@ std::optional<Diagonal> above_ground(const TimberJob& job, bool rises, Reach rea
 
 /// Boards between two rows, on the outsides of the outer legs; they rise towards the shorter leg where that can be, else
 /// the other way.
-void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const BearerPlan& plan,
+/// @return whether there is room for one
+bool brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const BearerPlan& plan,
                const std::string& number, std::vector<ShopPart>& parts) {
   const LegOptions& options = *job.options.legs;
   const double from = before.x + kBeside;
@@ -218,8 +223,27 @@ void brace_bay(const TimberJob& job, const Leg& before, const Leg& after, const 
       weigh(part);
       parts.push_back(std::move(part));
     }
-    return;
+    return true;
   }
+  return false;
+}
+
+/// Says which bays no boards brace.
+/// @param bays  "2 to 3"
+/// @param asked  how many are to be braced
+void tell_open_bays(const TimberJob& job, const std::vector<std::string>& bays, std::size_t asked,
+                    Workshop& workshop) {
+  if (bays.empty()) return;
+  const LegOptions& options = *job.options.legs;
+  add_shortfall(
+      {"legs.braced_from",
+       "braced_from: no boards brace " + std::to_string(bays.size()) + " of " + std::to_string(asked) +
+           " bays along the run, legs " + listed(bays) + ", although a leg of each is " +
+           length_text(options.braced_from) + " long or longer",
+       "Between ground and bearers, " + length_text(kClear) + " clear of both, boards of " +
+           length_text(options.brace_width) + " (brace_width) find no room there, whichever way they rise.",
+       "another spacing of the legs, or bracing of your own"},
+      workshop);
 }
 
 }  // namespace
@@ -230,15 +254,21 @@ bool is_braced(const TimberJob& job, const Leg& leg, const BearerPlan& plan) {
          reach.high - reach.low > 2.0 * job.options.legs->brace_width;
 }
 
-std::vector<ShopPart> brace_parts(const TimberJob& job, const std::vector<Leg>& legs,
-                                  const BearerPlan& plan) {
+std::vector<ShopPart> brace_parts(const TimberJob& job, const std::vector<Leg>& legs, const BearerPlan& plan,
+                                  Workshop& workshop) {
   std::vector<ShopPart> parts;
+  std::vector<std::string> open;
+  std::size_t bays = 0;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const std::string number = std::to_string(i + 1);
     if (is_braced(job, legs[i], plan)) brace_row(job, legs[i], plan, number, parts);
-    if (i + 1 < legs.size() && (is_braced(job, legs[i], plan) || is_braced(job, legs[i + 1], plan)))
-      brace_bay(job, legs[i], legs[i + 1], plan, number, parts);
+    if (i + 1 == legs.size() || !(is_braced(job, legs[i], plan) || is_braced(job, legs[i + 1], plan)))
+      continue;
+    ++bays;
+    if (!brace_bay(job, legs[i], legs[i + 1], plan, number, parts))
+      open.push_back(number + " to " + std::to_string(i + 2));
   }
+  tell_open_bays(job, open, bays, workshop);
   return parts;
 }
 

@@ -5,11 +5,13 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 
 #include "parts/bodies/body_moments.hpp"
 #include "parts/plates/calm_joints.hpp"
 #include "parts/plates/plate_joints.hpp"
 #include "parts/plates/plate_unit.hpp"
+#include "parts/shop/workshop_list.hpp"
 #include "parts/supports/ground.hpp"
 
 #include <algorithm>
@@ -382,7 +384,43 @@ BearerPlan plan_bearers(const TimberJob& job) {
        "a smaller depth, a larger sheet, or frame: beams"});
 }
 
-std::vector<Leg> plan_legs(const TimberJob& job) {
+namespace {
+
+/// Rows of legs that are asked for and not made, by their places along the run.
+struct LeftOut {
+  std::vector<double> no_place;
+  std::vector<double> on_ground;
+  int asked = 0;
+};
+
+std::string places_text(const std::vector<double>& places) {
+  constexpr std::size_t kTold = 6;  // taste
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < places.size() && i < kTold; ++i) words.push_back(length_text(places[i], 3));
+  if (places.size() > kTold) words.push_back(std::to_string(places.size() - kTold) + " more");
+  return listed(words);
+}
+
+void tell_left_out(const LeftOut& rows, Workshop& workshop) {
+  if (!rows.on_ground.empty()) {
+    workshop.notes.push_back("No legs at " + places_text(rows.on_ground) +
+                             " from the start along the run: bearers lie on the ground there, or less than " +
+                             length_text(kLeastPost) + " above it.");
+  }
+  if (rows.no_place.empty()) return;
+  add_shortfall({"legs",
+                 "legs: " + std::to_string(rows.no_place.size()) + " of " + std::to_string(rows.asked) +
+                     " rows " + (rows.no_place.size() == 1 ? "finds" : "find") + " no place, at " +
+                     places_text(rows.no_place) + " from the start along the run",
+                 "None stands below bearers steeper than " + angle_text(Angle::from_radians(kSteepest), 3) +
+                     ": it would carry nothing.",
+                 "a track that is less steep there, or a support of your own"},
+                workshop);
+}
+
+}  // namespace
+
+std::vector<Leg> plan_legs(const TimberJob& job, Workshop& workshop) {
   std::vector<Leg> legs;
   if (!job.options.legs) return legs;
   const double half = 0.5 * job.options.legs->side;
@@ -393,13 +431,26 @@ std::vector<Leg> plan_legs(const TimberJob& job) {
   };
   const double from = run(0.0) + half + 1e-3;
   const double to = run(job.track.length()) - half - 1e-3;
-  if (!(to > from)) return legs;
+  if (!(to > from)) {
+    add_shortfall({"legs", "legs: none finds room",
+                   "The underside of the bearers is " + length_text(to - from + 2.0 * half, 3) +
+                       " long along the run, a leg " + length_text(job.options.legs->side) + ".",
+                   "thinner legs (side), or none"},
+                  workshop);
+    return legs;
+  }
   const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / job.options.legs->spacing)));
   std::vector<Issue> issues;
   std::vector<Foot> feet;
+  LeftOut left_out;
+  left_out.asked = steps + 1;
   for (int k = 0; k <= steps; ++k) {
-    const auto place = place_below(job.track, height, from + (to - from) * k / steps);
-    if (!place || std::fabs(job.track.at(*place).slope_angle) > kSteepest) continue;
+    const double x = from + (to - from) * k / steps;
+    const auto place = place_below(job.track, height, x);
+    if (!place || std::fabs(job.track.at(*place).slope_angle) > kSteepest) {
+      left_out.no_place.push_back(x);
+      continue;
+    }
     const Leg leg = leg_below(job, *place);
     feet.push_back({leg.x, frame_at(job.track, leg.at).at.x});
     if (leg.length() < -kLeastPost) {
@@ -409,10 +460,14 @@ std::vector<Leg> plan_legs(const TimberJob& job) {
                         "They reach " + length_text(-height, 3) + " below the floor.",
                         "a lower ground there, or bearers of less depth"});
     }
-    if (std::min(leg.top_left.y, leg.top_right.y) - leg.ground >= kLeastPost) legs.push_back(leg);
+    if (std::min(leg.top_left.y, leg.top_right.y) - leg.ground >= kLeastPost)
+      legs.push_back(leg);
+    else
+      left_out.on_ground.push_back(x);
   }
   require_on_ground(job.options.legs->ground, feet, "legs.ground", "a leg");
   if (!issues.empty()) throw InputError(std::move(issues));
+  tell_left_out(left_out, workshop);
   return legs;
 }
 

@@ -103,9 +103,10 @@ struct Leg {
 
   [[nodiscard]] double length() const { return 0.5 * (top_left.y + top_right.y) - ground; }
 };
+/// @param workshop  is told which rows find no place, and which are left out where bearers lie on the ground
 /// @throws InputError where the ground lies above the underside of the bearers, or its line ends before a leg: names the place, by how
 ///         much
-[[nodiscard]] std::vector<Leg> plan_legs(const TimberJob& job);
+[[nodiscard]] std::vector<Leg> plan_legs(const TimberJob& job, Workshop& workshop);
 
 /// @return angle of the chord of a stretch of track [rad]
 [[nodiscard]] double chord_angle(const TimberJob& job, const Span& span);

@@ -9,6 +9,7 @@
 #include "parts/bodies/body_moments.hpp"
 #include "parts/plates/plate_joints.hpp"
 #include "parts/plates/plate_unit.hpp"
+#include "parts/shop/workshop_list.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -416,23 +417,20 @@ double Lining::edge_mismatch() const {
   return most;
 }
 
-std::vector<std::string> Lining::notes() const {
-  std::vector<std::string> notes = {
+void Lining::tell(Workshop& workshop) const {
+  workshop.notes.emplace_back(
       "Strips of the lining meet in mitres: patterns are of the middle of each layer, edges are bevelled to "
-      "the "
-      "joint. Strips of the left and of the right side are mirror images: turned over, the bevel is on the "
-      "wrong side."};
+      "the joint. Strips of the left and of the right side are mirror images: turned over, the bevel is on "
+      "the wrong side.");
   const double departure = job_.channel.trough->section.departure;
   if (departure > 0.0) {
-    notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
-                    length_text(departure, 3) + ".");
+    workshop.notes.push_back("Flat staves stand in for the round section; they lie outside it by at most " +
+                             length_text(departure, 3) + ".");
   }
   for (std::size_t i = 0; i < strips_.size(); ++i) {
     if (unfolded_[i].from == 0.0 && unfolded_[i].to == job_.track.length()) continue;
-    notes.push_back("The " + strips_[i].name + " goes from " + length_text(unfolded_[i].from, 4) + " to " +
-                    length_text(unfolded_[i].to, 4) + " along the track: beyond, its rim would fold over.");
+    tell_short_plate(strips_[i].name, unfolded_[i].from, unfolded_[i].to, job_.track.length(), workshop);
   }
-  return notes;
 }
 
 }  // namespace glissade::parts

@@ -36,7 +36,8 @@ class Lining {
   [[nodiscard]] double exact_volume() const;
   /// @return greatest difference between edges of the patterns and the lines that they become [m]
   [[nodiscard]] double edge_mismatch() const;
-  [[nodiscard]] std::vector<std::string> notes() const;
+  /// Says how it is made, and where it is short of the track.
+  void tell(Workshop& workshop) const;
 
  private:
   [[nodiscard]] bool fits(const LiningStrip& strip, const Span& span) const;

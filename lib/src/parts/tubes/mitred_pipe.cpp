@@ -121,7 +121,7 @@ Facets flats_of(const PipeJob& job, double largest_kink) {
                     key + ": " + length_text(job.pipe.inner_diameter) + " is too large for mitred " + words,
                     "Where this track turns fastest, " + words + " would be shorter than " +
                         length_text(job.least_crown()) + (job.side ? " at the rim." : " at the crown."),
-                    "a smaller_radius limit of the track above " +
+                    "a smallest_radius limit of the track above " +
                         length_text(2.0 * job.pipe.inner_diameter, 2) +
                         ", a smaller pipe, or round: staves"});
 }
@@ -602,11 +602,10 @@ void add_tube_lids(const PipeJob& job, const std::vector<GoreUnit>& units,
     add_bolts(workshop, opening.bolt, 2.0 * job.pipe.thickness, opening.bolts.size(), "lids");
     const double half = 0.5 * (opening.lid.to - opening.lid.from);
     taken.add(opening.at - half, opening.at + half);
-    constexpr double kTold = 0.5e-3;  // [m]
-    if (std::fabs(opening.at - opening.asked) < kTold) continue;
-    workshop.notes.push_back("The opening that is asked for at " + length_text(opening.asked, 4) +
-                             " along the track is at " + length_text(opening.at, 4) + ", within one " +
-                             job.word() + ".");
+    tell_moved_opening(
+        opening.asked, opening.at,
+        "With its lid it lies within one " + std::string(job.word()) + ", off its mitres and off flanges.",
+        workshop);
   }
 }
 
@@ -812,7 +811,7 @@ WorkshopBuild make_mitred_pipe(const ArcSpline& track, const section::Pipe& pipe
   measure_steps(places_of(job, units, build.joints), options, build);
   build.proof = prove(job, units, rooms, workshop);
   note_differences(build.proof, "the plain pipe", workshop);
-  note_missed_speed(options.bend, {facets}, job.least_crown(), "", body, gravity, design.exit_speed(),
+  tell_missed_speed(options.bend, {facets}, job.least_crown(), "", body, gravity, design.exit_speed(),
                     workshop);
   return build;
 }

@@ -3,6 +3,7 @@
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/words.hpp"
 
 #include "parts/bodies/body_moments.hpp"
 #include "parts/curves/offset_line.hpp"
@@ -180,13 +181,11 @@ void add_trough_rims(const std::vector<TroughTop>& troughs, const TopMeasures& m
 void add_trough_covers(const std::vector<TroughTop>& troughs, const TopMeasures& measures,
                        const PlateOptions& options, const Placement& placement, Workshop& workshop) {
   const CoverOptions& cover = *options.cover;
-  std::string open;
-  std::size_t count = 0;
+  std::vector<std::string> open;
   for (std::size_t i = 0; i < troughs.size(); ++i) {
     const CoveredTop on = covered_top(troughs[i], measures, options);
     if (on.pieces.empty()) {
-      open += (open.empty() ? "" : ", ") + std::to_string(i + 1);
-      ++count;
+      open.push_back(std::to_string(i + 1));
     }
     const auto [axis, along, left, up] = directions_of(troughs[i], placement);
     for (std::size_t k = 0; k < on.pieces.size(); ++k) {
@@ -203,13 +202,17 @@ void add_trough_covers(const std::vector<TroughTop>& troughs, const TopMeasures&
   }
   if (open.empty()) return;
   const std::string least = length_text(2.0 * cover_ends(options, 1.0).least, 3);
-  if (count == troughs.size()) {
+  if (open.size() == troughs.size()) {
     throw InputError({"cover", "cover: every trough is shorter at its top than its bolts take",
                       "They take " + least + ".",
                       "longer troughs (bend), a smaller bolt, round: staves, or no cover"});
   }
-  workshop.notes.push_back("Not covered: trough" + std::string(count > 1 ? "s " : " ") + open +
-                           ", shorter at the top than the " + least + " that bolts take.");
+  add_shortfall({"cover",
+                 "cover: " + std::to_string(open.size()) + " of " + std::to_string(troughs.size()) +
+                     " troughs stay open, trough" + (open.size() > 1 ? "s " : " ") + listed(open),
+                 "At their tops they are shorter than the " + least + " that a cover's bolts take.",
+                 "longer troughs (bend), a smaller bolt, or round: staves"},
+                workshop);
 }
 
 }  // namespace glissade::parts
