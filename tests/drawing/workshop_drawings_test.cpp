@@ -96,6 +96,19 @@ TEST_CASE("the set of drawings has every part, list and table, each sheet number
   CHECK(pdf_text(set, "x") == pdf_text(drawing_set(workshop), "x"));
 }
 
+TEST_CASE("what is not as asked for stands before the notes on the first sheet, with what to try") {
+  Workshop workshop = testing::upright_workshop();
+  workshop.shortfalls = {{"supports.spacing", "spacing: 2 m", "No place.", "3 m"}, {"", "no lugs", "", ""}};
+  const Sheet first = drawing_set(workshop).front();
+  std::vector<std::string> texts;
+  for (const DrawnText& text : first.texts) texts.push_back(text.text);
+  const auto shortfall =
+      std::find(texts.begin(), texts.end(), "Not as asked for: spacing: 2 m. No place. Try: 3 m.");
+  REQUIRE(shortfall != texts.end());
+  CHECK(std::find(shortfall, texts.end(), "Not as asked for: no lugs.") != texts.end());
+  CHECK(std::find(shortfall, texts.end(), workshop.notes.front()) != texts.end());
+}
+
 TEST_CASE("slots are numbered after the holes, with middle, width and length") {
   Workshop workshop = testing::upright_workshop();
   ShopPart part;

@@ -317,12 +317,24 @@ bool add_notes(const std::vector<std::string>& notes, Sheet& sheet) {
   return all;
 }
 
+/// What is not as asked for, each in one paragraph, and the notes.
+std::vector<std::string> all_notes(const Workshop& workshop) {
+  std::vector<std::string> notes;
+  for (const Issue& shortfall : workshop.shortfalls) {
+    notes.push_back("Not as asked for: " + shortfall.what + "." +
+                    (shortfall.why.empty() ? "" : " " + shortfall.why) +
+                    (shortfall.hint.empty() ? "" : " Try: " + shortfall.hint + "."));
+  }
+  notes.insert(notes.end(), workshop.notes.begin(), workshop.notes.end());
+  return notes;
+}
+
 std::vector<Sheet> sheets_of_notes(const Workshop& workshop) {
   SheetTable table;
   table.caption = "Notes";
   table.widths_mm = {170.0};
   table.header = {"of this set"};
-  for (std::string& line : note_lines(workshop.notes, table.widths_mm.front() - 4.0)) {
+  for (std::string& line : note_lines(all_notes(workshop), table.widths_mm.front() - 4.0)) {
     table.rows.push_back({std::move(line)});
   }
   return table_sheets(title_of(workshop, "Notes"), PaperSize::a4, std::move(table));
@@ -396,7 +408,7 @@ std::vector<Sheet> stretch_sheets(const Workshop& workshop, const SheetView& who
 
 std::vector<Sheet> general_arrangement(const Workshop& workshop) {
   std::vector<Sheet> sheets{arrangement_sheet(workshop, "General arrangement", nullptr)};
-  std::vector<std::string> notes = workshop.notes;
+  std::vector<std::string> notes = all_notes(workshop);
   if (workshop.parts.size() > kMostNumbers) {
     for (Sheet& stretch : stretch_sheets(workshop, sheets.front().views.front()))
       sheets.push_back(std::move(stretch));
