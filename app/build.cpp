@@ -82,7 +82,7 @@ ExitCode build_once(const BuildArguments& options) {
   } else if (!options.verbosity.quiet()) {
     print(build_summary(design, made), kept);
   }
-  print_warnings(warnings(design, made.track));
+  print_warnings(warnings(design, made.track, made.fabrication.get()));
   if (const auto problem = search_problem(design, made.track)) throw ConvergenceError(*problem);
   return ExitCode::done;
 }
@@ -91,7 +91,7 @@ ExitCode build_once(const BuildArguments& options) {
 std::string rebuilt(const BuildArguments& options, const RunContext& context) {
   const Design design = read_design(options.design, options.overrides.values());
   const Build made = built(design, options, context);
-  print_warnings(warnings(design, made.track));
+  print_warnings(warnings(design, made.track, made.fabrication.get()));
   if (const auto problem = search_problem(design, made.track)) print_problem(ConvergenceError(*problem));
   return "travel time " + time_text(made.track.motion.travel_time()) + ", exit speed " +
          speed_text(made.track.motion.exit_speed()) + ", " + std::to_string(made.files.size()) +

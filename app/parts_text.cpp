@@ -34,27 +34,8 @@ std::string pieces_text(const Workshop& workshop, const PartsProof& proof) {
          (proof.bolted > 0 ? ", " + counted(proof.bolted, "pair") + " of holes meet" : "");
 }
 
-constexpr std::size_t kManySheets = 3;  // of one stock: what is left over of fewer is no matter
-constexpr double kLittleUsed = 0.25;    // of a sheet
-
-/// Whether frames, rings or stiffeners that lie on sheets are whole: of pieces the name ends with a letter.
-bool hold_whole_frames(const std::vector<ShopPart>& parts, std::vector<NestedSheet>::const_iterator first,
-                       std::vector<NestedSheet>::const_iterator last) {
-  const auto is_whole = [&](const NestedPiece& piece) {
-    const std::string& name = parts[piece.part].name;
-    const std::size_t digits = name.find_last_not_of("_0123456789") + 1;
-    const std::string family = name.substr(0, digits);
-    return family == "end_frame" || family == "end_frame_loose" || family == "pipe_flange" ||
-           family == "pipe_flange_loose" || family == "trough_flange" || family == "trough_flange_loose" ||
-           family == "stiffener";
-  };
-  return std::any_of(first, last, [&](const NestedSheet& sheet) {
-    return std::any_of(sheet.pieces.begin(), sheet.pieces.end(), is_whole);
-  });
-}
-
 /// One line a stock: "6 of 400 HB, 6 mm, 3 m x 1.5 m: 67 % used".
-std::string stock_text(const std::vector<NestedSheet>& sheets, const std::vector<ShopPart>& parts) {
+std::string stock_text(const std::vector<NestedSheet>& sheets) {
   std::string text;
   for (auto first = sheets.begin(); first != sheets.end();) {
     const auto next = std::find_if(first, sheets.end(), [&](const NestedSheet& sheet) {
@@ -66,8 +47,6 @@ std::string stock_text(const std::vector<NestedSheet>& sheets, const std::vector
     text += (text.empty() ? "" : "\n") + counted(count, "sheet") + " of " + first->material + ", " +
             length_text(first->thickness) + ", " + length_text(first->stock.width) + " x " +
             length_text(first->stock.height) + ": " + rounded_text(100.0 * used, 2) + " % used";
-    if (count >= kManySheets && used < kLittleUsed && hold_whole_frames(parts, first, next))
-      text += "; less would be left over of frames in pieces, split: {frames: 3}";
     first = next;
   }
   return text;
@@ -85,8 +64,7 @@ std::string templates_text(const TemplatePages& pages, TemplatePaper paper) {
 
 std::string ride_text(const AsBuiltRide& ride) {
   if (!ride.arrives) {
-    return "the body does not arrive on the floor as it is built: " + ride.stopped +
-           "; a limit lowest_normal_load above 0 keeps it on arcs, one on speed or slope keeps it moving";
+    return "the body does not arrive on the floor as it is built: " + ride.stopped;
   }
   std::string text = rounded_text(ride.travel_time, 5) + " s, " + rounded_text(ride.exit_speed, 5) + " m/s";
   if (!(ride.design_exit_speed > 0.0)) return text;
@@ -124,16 +102,24 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
   return std::to_string(passed) + " of " + std::to_string(checks.size()) + " rules of the shop kept" + text;
 }
 
+/// One line each; what is not as asked for is a warning beside.
+std::string notes_text(const std::vector<std::string>& notes) {
+  std::string text;
+  for (const std::string& note : notes) text += (text.empty() ? "" : "\n") + note;
+  return text;
+}
+
 }  // namespace
 
 std::string parts_lines(const WorkshopBuild& build, TemplatePaper paper) {
   return labelled("Master curve", arcs_text(build.master)) +
          labelled("Parts", pieces_text(build.workshop, build.proof)) +
-         (build.nests.empty() ? "" : labelled("Stock", stock_text(build.nests, build.workshop.parts))) +
+         (build.nests.empty() ? "" : labelled("Stock", stock_text(build.nests))) +
          (build.template_pages.roll == 0
               ? ""
               : labelled("Templates", templates_text(build.template_pages, paper))) +
-         labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks));
+         labelled("As built", ride_text(build.ride)) + labelled("Shop", checks_text(build.workshop.checks)) +
+         (build.workshop.notes.empty() ? "" : labelled("Notes", notes_text(build.workshop.notes)));
 }
 
 }  // namespace glissade::app

@@ -131,7 +131,7 @@ ExitCode judge_design(const RulesArguments& options) {
   const Verdicts verdicts = judged(design, options);
   std::string text;
   if (options.json) {
-    text = verdicts_json(design, verdicts.rules, verdicts.made ? &verdicts.made->workshop.checks : nullptr);
+    text = verdicts_json(design, verdicts.track, verdicts.rules, verdicts.made.get());
   } else {
     text = emphasised(design.name.empty() ? std::string("Track") : design.name, Emphasis::heading) + "\n";
     if (!verdicts.rules.empty()) text += "\n" + verdicts_table(verdicts.rules);
@@ -144,6 +144,7 @@ ExitCode judge_design(const RulesArguments& options) {
     files.put_in_place();
   };
   write_and_print(write, text, options.csv.empty() ? "" : "The table is written, as " + options.csv + ".");
+  print_warnings(warnings(design, verdicts.track, verdicts.made.get()));
   if (verdicts.fail()) return ExitCode::faulty;
   require_searched_through(design, verdicts.track);
   return ExitCode::done;

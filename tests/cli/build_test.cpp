@@ -70,6 +70,29 @@ TEST_CASE("build writes the files that the design names, proves the mesh and say
                                                                   "chute.stl"});
 }
 
+TEST_CASE("build warns of supports that find no place, with or without --json, and has notes for the shop") {
+  const TempDir place;
+  put_bytes(
+      place / "chute.yaml",
+      chute_with("export:",
+                 "export: [off]\nfabrication: {process: plate, supports: {ground: 0 m, spacing: 300 mm}, "
+                 "lifting: {hole: 22 mm}}"));
+  const Outcome told = glissade_run({"build", "chute.yaml"}, {place.path(), {}, {}});
+  CHECK(told.exit_code == 0);
+  CHECK_THAT(told.errors, StartsWith("glissade: warning: chute.yaml:") &&
+                              Contains("spacing: the track sticks out by ") &&
+                              Contains(" above support 1, at ") &&
+                              Contains(", for 150 mm, half of 300 mm\n") && Contains("Try: spacing: "));
+  CHECK_THAT(told.output, Contains("  Notes  ") && Contains("Unit 1: ") && Contains(" kg, lugs at "));
+  const Outcome both = glissade_run({"build", "chute.yaml", "--json"}, {place.path(), {}, {}});
+  CHECK(both.errors == told.errors);
+  const json built = json::parse(both.output);
+  REQUIRE_FALSE(built["shortfalls"].empty());
+  CHECK(built["warnings"].back() == built["shortfalls"].back());
+  CHECK(both.errors.find(built["shortfalls"][0]["what"].get<std::string>()) != std::string::npos);
+  CHECK(built["notes"][0].get<std::string>().find("Unit 1: ") == 0);
+}
+
 TEST_CASE("build --json tells of the track, the mesh and the files") {
   const TempDir place;
   put_bytes(place / "chute.yaml", kChute);

@@ -97,6 +97,15 @@ TEST_CASE(
   const Outcome kept = glissade_run({"rules", design, "-q"});
   CHECK(kept.exit_code == 0);
   CHECK_THAT(kept.output, Contains("rule of the shop") && Contains("plate.hole-edge"));
+  // What finds no place is no matter of rules, but of warnings.
+  CHECK_THAT(
+      kept.errors,
+      Contains("glissade: warning: ") &&
+          Contains(
+              "spacing: the track sticks out by 1.37 m above support 1, at 1.375 m along it, for 950 mm, "
+              "half of 1.9 m\n") &&
+          Contains("a trestle stands below no more than 60 deg (steepest).\n") &&
+          Contains("Try: spacing: 2.77 m, a larger steepest, or a support of your own"));
   const Outcome broken =
       glissade_run({"rules", design, "-q", "--json", "--set",
                     "fabrication.rules={own: [{id: our.crane, sentence: Our crane lifts 5 kg., "

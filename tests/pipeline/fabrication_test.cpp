@@ -18,6 +18,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -111,6 +112,92 @@ TEST_CASE("fabrication: the process alone gives every file, each of its part, an
   // The volume of the channel along the arcs is that of the solid along the track, to the tolerance of the arcs.
   const double solid = json["mesh"]["volume_m3"];
   CHECK(std::fabs(json["channel_volume_m3"].get<double>() / solid - 1.0) < 1e-3);
+}
+
+TEST_CASE(
+    "fabrication: what is not as asked for is told by warnings, JSON and the report alike, with its place") {
+  const TempDir place;
+  const Design design =
+      quick("{process: plate, supports: {ground: 0 m, spacing: 1 m}, lifting: {hole: 22 mm}}");
+  const Build built = build(design, place / "out");
+  REQUIRE(built.fabrication);
+  const Workshop& workshop = built.fabrication->workshop;
+  REQUIRE_FALSE(workshop.shortfalls.empty());
+  REQUIRE_FALSE(workshop.notes.empty());
+  const Issue& end = workshop.shortfalls.front();
+  CHECK(end.where.starts_with("chute.yaml:5:"));
+  CHECK(end.what.starts_with("spacing: the track sticks out by "));
+  CHECK(end.what.find(", for 500 mm, half of 1 m") != std::string::npos);
+  CHECK(end.why.find("a trestle stands below no more than 60 deg (steepest).") != std::string::npos);
+  CHECK(end.hint.starts_with("spacing: "));
+  const std::vector<Issue> told = warnings(design, built.track, built.fabrication.get());
+  const std::vector<Issue> of_track = warnings(design, built.track);
+  REQUIRE(told.size() == of_track.size() + workshop.shortfalls.size());
+  CHECK(std::equal(workshop.shortfalls.begin(), workshop.shortfalls.end(),
+                   told.end() - static_cast<std::ptrdiff_t>(workshop.shortfalls.size())));
+  CHECK(warnings(design, built.track, nullptr) == of_track);
+
+  // In the order of the keys, as the report has them.
+  using Json = nlohmann::ordered_json;
+  const Json json = Json::parse(build_json(design, built));
+  REQUIRE(json["shortfalls"].size() == workshop.shortfalls.size());
+  CHECK(json["shortfalls"][0]["where"] == end.where);
+  CHECK(json["shortfalls"][0]["what"] == end.what);
+  CHECK(json["shortfalls"][0]["why"] == end.why);
+  CHECK(json["shortfalls"][0]["hint"] == end.hint);
+  CHECK(json["notes"] == Json(workshop.notes));
+  REQUIRE(json["warnings"].size() == told.size());
+  CHECK(json["warnings"].back() == json["shortfalls"].back());
+  const Json rules = Json::parse(verdicts_json(design, built.track, {}, built.fabrication.get()));
+  CHECK(rules["warnings"] == json["warnings"]);
+
+  std::ifstream page(place / "out/chute.report.html");
+  const std::string report{std::istreambuf_iterator<char>(page), {}};
+  CHECK(report.find("\"warnings\":" + json["warnings"].dump()) != std::string::npos);
+  CHECK(report.find("\"shortfalls\":" + json["shortfalls"].dump()) != std::string::npos);
+}
+
+TEST_CASE("fabrication: a body that does not arrive on the floor as it is made is warned of") {
+  // Next to no friction more stops it; three bends take more than that.
+  const Design design = parse_design(
+      "glissade: 1\n"
+      "track: {start: {x: 0 m, z: 3 m}, finish: {x: 4 m, z: 1.8 m}}\n"
+      "body: {friction_angle: 16.5 deg}\n"
+      "cross_section: {kind: u-channel, width: 200 mm, wall_height: 60 mm, thickness: 3 mm}\n"
+      "fabrication: {process: plate, floor: bent, bend: {bends: 3}, flanges: none}\n"
+      "mesh: {tolerance: 3 mm}\nexport: [off]\n",
+      "slow.yaml");
+  const Assembly assembly = assemble(design, solve(design), {}, {.report = false});
+  REQUIRE_FALSE(assembly.fabrication->ride.arrives);
+  const std::vector<Issue> told = warnings(design, assembly.track, assembly.fabrication.get());
+  REQUIRE_FALSE(told.empty());
+  CHECK(told.back().where == "slow.yaml:5:1");
+  CHECK(told.back().what.starts_with("the body does not arrive on the floor as it is built: it stalls "));
+  CHECK(told.back().hint.starts_with("a limit lowest_normal_load above 0"));
+}
+
+TEST_CASE("fabrication: frames that leave much of their sheets are noted, those in pieces are not") {
+  const auto noted = [](const std::string& split) {
+    const Design design = parse_design(
+        "glissade: 1\n"
+        "track: {start: {x: 2 m, z: 6.2 m}, finish: {x: 7.4 m, z: 1.1 m}}\n"
+        "body: {friction_angle: 17 deg}\n"
+        "cross_section: {kind: u-channel, width: 2 m, wall_height: 600 mm, thickness: 4 mm}\n"
+        "fabrication: {process: plate, split: " +
+            split + "}\nmesh: {tolerance: 2 mm}\nexport: [off]\n",
+        "wide.yaml");
+    const Assembly assembly = assemble(design, solve(design), {}, {.report = false});
+    std::vector<std::string> found;
+    for (const std::string& note : assembly.fabrication->workshop.notes) {
+      if (note.find("split: {frames: 3}") != std::string::npos) found.push_back(note);
+    }
+    return found;
+  };
+  const std::vector<std::string> whole = noted("{longest: 1.4 m}");
+  REQUIRE(whole.size() == 1);
+  CHECK(whole.front().find(" sheets of S235, 6 mm, are ") != std::string::npos);
+  CHECK(whole.front().ends_with(" % used: less would be left over of frames in pieces, split: {frames: 3}."));
+  CHECK(noted("{longest: 1.4 m, frames: 3}").empty());
 }
 
 TEST_CASE("fabrication: what is set out lies in the frame of the site, parts in that of the mesh files") {

@@ -96,6 +96,11 @@ struct Build {
   [[nodiscard]] const ProvenSolid& swept() const { return *parts.front().solid; }
 };
 
+/// What a user should hear of beside a sound build: warnings() of its track, then what a workshop makes otherwise than asked for.
+/// @param made  null where the design asks for no fabrication
+[[nodiscard]] std::vector<Issue> warnings(const Design& design, const Track& track,
+                                          const WorkshopBuild* made);
+
 /// What a build writes beside the files that the design asks for.
 struct BuildOptions {
   bool report = true;  ///< write NAME.report.html beside the meshes

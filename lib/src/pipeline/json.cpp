@@ -332,6 +332,11 @@ std::string build_json(const Design& design, const Build& build) {
   Json json = pipeline::track_document(design, build.track);
   json["mesh"] = build.has_solid() ? pipeline::solid_json(build.swept()) : Json(nullptr);
   report::add_parts(json, build.fabrication.get());
+  if (build.fabrication) {
+    // After those of the track, as warnings() has them, which take their time.
+    for (Json& one : issues_json(build.fabrication->workshop.shortfalls))
+      json["warnings"].push_back(std::move(one));
+  }
   json["files"] = Json::array();
   for (const WrittenFile& file : build.files) {
     json["files"].push_back({{"path", file.path.generic_string()}, {"bytes", file.bytes}});
@@ -411,13 +416,14 @@ std::string rule_quantities_json() {
   return document_text({{"glissade", version()}, {"quantities", std::move(list)}});
 }
 
-std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements,
-                          const std::vector<ShopCheck>* shop) {
+std::string verdicts_json(const Design& design, const Track& track, const std::vector<Judgement>& judgements,
+                          const WorkshopBuild* made) {
   Json json{{"glissade", version()}};
   if (!design.name.empty()) json["name"] = design.name;
   json["verdict"] = to_text(worst(judgements));
   json["rules"] = report::rules_json(judgements);
-  json["shop_checks"] = shop == nullptr ? Json(nullptr) : report::shop_checks_json(*shop);
+  json["shop_checks"] = made == nullptr ? Json(nullptr) : report::shop_checks_json(made->workshop.checks);
+  json["warnings"] = issues_json(warnings(design, track, made));
   return document_text(json);
 }
 

@@ -80,6 +80,15 @@ describe("parts of a workshop", () => {
 
   const chosen = () => page.evaluate(() => window.glissadeReport.store.get("part"));
 
+  test("have what is not as asked for above them and among the warnings, and notes below", async () => {
+    const { shortfalls, notes, warnings } = made.json;
+    assert.ok(shortfalls.length > 0 && notes.length > 0);
+    const told = (issues) => issues.map(({ what, why, hint }) => what + why + (hint ? `Try: ${hint}` : ""));
+    assert.deepEqual(await page.locator("#parts .warnings li").allTextContents(), told(shortfalls));
+    assert.deepEqual(await page.locator("#summary .warnings li").allTextContents(), told(warnings));
+    assert.deepEqual(await page.locator("#parts .shop-notes li").allTextContents(), notes);
+  });
+
   test("are chosen by a click on the picture, by keys and from the list", async () => {
     // A place of the picture that shows a wall, by what lies below the pointer.
     const canvas = page.locator("#parts-view");
@@ -228,10 +237,13 @@ describe("parts of a workshop", () => {
     await page.locator("#parts-view").scrollIntoViewIfNeeded();
     const at = await page.locator("#parts-view").evaluate((node) => {
       const { parts } = window.glissadeReport;
+      const partAt = (x, y) => parts.partOf[parts.facetAt(x, y)];
+      // Off its edges: the page places the picture to fractions of a pixel, a click goes to whole ones.
+      const inside = (x, y, part) => [-3, 3].every((by) => partAt(x + by, y) === part && partAt(x, y + by) === part);
       for (let y = 10; y < node.height; y += 6) {
         for (let x = 10; x < node.width; x += 6) {
-          const facet = parts.facetAt(x, y);
-          if (facet !== null) return { x, y, part: parts.partOf[facet] };
+          const part = partAt(x, y);
+          if (part !== undefined && inside(x, y, part)) return { x, y, part };
         }
       }
       return null;

@@ -44,9 +44,10 @@ struct ComparedTrack {
 [[nodiscard]] std::string rules_json(const std::vector<RuleSet>& sets);
 
 /// What rules say of a track, and those of the shop of its parts.
-/// @param shop  null where nothing is fabricated
-[[nodiscard]] std::string verdicts_json(const Design& design, const std::vector<Judgement>& judgements,
-                                        const std::vector<ShopCheck>* shop = nullptr);
+/// @param made  null where nothing is fabricated
+[[nodiscard]] std::string verdicts_json(const Design& design, const Track& track,
+                                        const std::vector<Judgement>& judgements,
+                                        const WorkshopBuild* made = nullptr);
 
 /// Friction and drag fitted to measured speeds.
 /// @param as_designed  the same speeds with the friction and drag of their own designs

@@ -6,6 +6,7 @@
 #include "glissade/parts/plates.hpp"
 #include "glissade/parts/prints.hpp"
 #include "glissade/parts/timber.hpp"
+#include "glissade/pipeline.hpp"
 #include "glissade/pipeline/shop_rules.hpp"
 
 #include "parts/shop/shop_facts.hpp"
@@ -103,6 +104,26 @@ void measure_clearances(const Design& design, const Placement& frame, Workshop& 
 
 }  // namespace
 
+namespace {
+
+/// A body that does not arrive on the floor as it is made, although it does on the track of the design.
+void tell_of_ride(WorkshopBuild& build) {
+  if (build.ride.arrives) return;
+  build.workshop.shortfalls.push_back(
+      {"", "the body does not arrive on the floor as it is built: " + build.ride.stopped,
+       "It arrives on the track as it is designed; arcs, bends and joints in its place take more.",
+       "a limit lowest_normal_load above 0, which keeps it on arcs, or one on speed or slope, which keeps it "
+       "moving"});
+}
+
+/// Gives what is not made as it was asked for its place in the file.
+void locate(const Design& design, std::vector<Issue>& shortfalls) {
+  for (Issue& issue : shortfalls)
+    issue.where = design.where(issue.where.empty() ? "fabrication" : "fabrication." + issue.where);
+}
+
+}  // namespace
+
 std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track& track,
                                                const Placement& frame, const std::stop_token& stop) {
   WorkshopBuild build = at_keys(design, [&] {
@@ -113,6 +134,8 @@ std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track
   const auto* const plate = std::get_if<PlateOptions>(&design.fabrication->process);
   if (design.hood && (plate == nullptr || !plate->hood))
     build.workshop.notes.emplace_back("The hood is a solid alone: these are the parts of the track.");
+  tell_of_ride(build);
+  locate(design, build.workshop.shortfalls);
   measure_clearances(design, frame, build.workshop);
   build.workshop.checks = judge_shop(design.fabrication->rules.in_force, build.workshop);
   // Parts lie in the frame of the mesh files, what is set out on site in that of the site.
@@ -125,3 +148,15 @@ std::shared_ptr<const WorkshopBuild> fabricate(const Design& design, const Track
 }
 
 }  // namespace glissade::pipeline
+
+namespace glissade {
+
+std::vector<Issue> warnings(const Design& design, const Track& track, const WorkshopBuild* made) {
+  std::vector<Issue> found = warnings(design, track);
+  if (made == nullptr) return found;
+  const std::vector<Issue>& shortfalls = made->workshop.shortfalls;
+  found.insert(found.end(), shortfalls.begin(), shortfalls.end());
+  return found;
+}
+
+}  // namespace glissade

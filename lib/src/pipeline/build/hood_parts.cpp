@@ -109,6 +109,10 @@ void join_lists(Workshop hood, Vec2 entry, const TurnedOver& turned, Workshop& a
   }
   for (const SettingOutPoint& point : hood.setting_out)
     all.setting_out.push_back(hanging(point, entry, turned));
+  for (Issue& shortfall : hood.shortfalls) {
+    shortfall.what.insert(0, "hood: ");
+    all.shortfalls.push_back(std::move(shortfall));
+  }
   for (const std::string& note : hood.notes) all.notes.push_back("Hood: " + note);
 }
 

@@ -248,7 +248,7 @@ ReportInput report_input(const Design& design, const BuildForReport& build) {
   }
   input.stall_angle = stall_angle_of(track);
   input.probes = probe_readings(design, track);
-  input.warnings = warnings(design, track);
+  input.warnings = warnings(design, track, build.workshop);
   if (track.gates) input.gates = &*track.gates;
   input.rules = judge_rules(design, track);
   input.workshop = build.workshop;

@@ -2,6 +2,7 @@
 
 #include "pipeline/build/workshop_files.hpp"
 
+#include "glissade/core/number_text.hpp"
 #include "glissade/drawing/workshop_drawings.hpp"
 #include "glissade/io/atomic_file.hpp"
 #include "glissade/io/dxf_file.hpp"
@@ -262,10 +263,52 @@ void name_part_files(const Design& design, Workshop& workshop) {
   }
 }
 
+namespace {
+
+constexpr std::size_t kManySheets = 3;  // taste: of one stock; what is left over of fewer is no matter
+constexpr double kLittleUsed = 0.25;    // taste: of a sheet
+
+/// Whether a part is a frame, ring or stiffener that is whole: of pieces the name ends with a letter.
+bool is_whole_frame(const ShopPart& part) {
+  const std::size_t digits = part.name.find_last_not_of("_0123456789") + 1;
+  const std::string family = part.name.substr(0, digits);
+  return family == "end_frame" || family == "end_frame_loose" || family == "pipe_flange" ||
+         family == "pipe_flange_loose" || family == "trough_flange" || family == "trough_flange_loose" ||
+         family == "stiffener";
+}
+
+/// Says of which stock less would be left over of frames in pieces.
+void note_left_over(WorkshopBuild& build) {
+  const std::vector<NestedSheet>& sheets = build.nests;
+  for (auto first = sheets.begin(); first != sheets.end();) {
+    const auto next = std::find_if(first, sheets.end(), [&](const NestedSheet& sheet) {
+      return sheet.material != first->material || sheet.thickness != first->thickness;
+    });
+    const auto count = static_cast<std::size_t>(next - first);
+    double used = 0.0;
+    for (auto sheet = first; sheet != next; ++sheet) used += sheet->utilisation / static_cast<double>(count);
+    const bool whole = std::any_of(first, next, [&](const NestedSheet& sheet) {
+      return std::any_of(sheet.pieces.begin(), sheet.pieces.end(), [&](const NestedPiece& piece) {
+        return is_whole_frame(build.workshop.parts[piece.part]);
+      });
+    });
+    if (count >= kManySheets && used < kLittleUsed && whole) {
+      build.workshop.notes.push_back(
+          std::to_string(count) + " sheets of " + first->material + ", " + length_text(first->thickness) +
+          ", are " + rounded_text(100.0 * used, 2) +
+          " % used: less would be left over of frames in pieces, split: {frames: 3}.");
+    }
+    first = next;
+  }
+}
+
+}  // namespace
+
 void lay_on_sheets(const Design& design, WorkshopBuild& build) {
   const auto stock = stock_of(*design.fabrication);
   if (!stock || !Choice(design)(WorkshopFormat::nests)) return;
   build.nests = nest(build.workshop, *stock);
+  note_left_over(build);
   for (NestedSheet& sheet : build.nests) sheet.file = stem_of(design) + ".nests/" + sheet.name + ".dxf";
 }
 

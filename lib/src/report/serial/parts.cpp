@@ -88,8 +88,8 @@ Json shop_checks_json(const std::vector<ShopCheck>& checks) {
 
 void add_parts(Json& json, const WorkshopBuild* build) {
   for (const char* const key :
-       {"master_curve", "parts", "items", "nests", "template_pages", "as_built", "shop_checks",
-        "parts_volume_m3", "channel_volume_m3", "bolted_holes", "joints_m"}) {
+       {"master_curve", "parts", "items", "nests", "template_pages", "as_built", "shop_checks", "shortfalls",
+        "notes", "parts_volume_m3", "channel_volume_m3", "bolted_holes", "joints_m"}) {
     json[key] = nullptr;
   }
   if (build == nullptr) return;
@@ -110,6 +110,8 @@ void add_parts(Json& json, const WorkshopBuild* build) {
   json["template_pages"] = {{"a4", pages.a4}, {"a3", pages.a3}, {"roll", pages.roll}};
   json["as_built"] = ride_json(build->ride);
   json["shop_checks"] = shop_checks_json(workshop.checks);
+  json["shortfalls"] = issues_json(workshop.shortfalls);
+  json["notes"] = workshop.notes;
   json["parts_volume_m3"] = build->proof.volume + build->proof.added_volume;
   json["channel_volume_m3"] = build->proof.volume;
   json["bolted_holes"] = build->proof.bolted;

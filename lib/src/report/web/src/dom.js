@@ -58,3 +58,11 @@ export function scrollable(label, table) {
   observer.observe(table);
   return [remark, holder];
 }
+
+// What to hear of: what, why, and what to try.
+export function issueList(issues) {
+  return element("ul", { class: "warnings" }, issues.map(({ what, why, hint }) => element("li", {},
+    element("strong", {}, what),
+    why ? element("span", { class: "detail" }, why) : null,
+    hint ? element("span", { class: "detail" }, `Try: ${hint}`) : null)));
+}

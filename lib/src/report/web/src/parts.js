@@ -6,7 +6,7 @@ import {
   Matrix4, Mesh, MeshLambertMaterial, Raycaster, SRGBColorSpace, Vector2, Vector3,
 } from "three";
 import { decodeArray } from "./data.js";
-import { button, element, scrollable, section, select } from "./dom.js";
+import { button, element, issueList, scrollable, section, select } from "./dom.js";
 import { exportButtons, standAlone } from "./export.js";
 import { nestDrawing, patternDrawing, viewsDrawing } from "./pattern.js";
 import { DIRECTIONS, paintedSize, Stage } from "./stage.js";
@@ -282,8 +282,10 @@ function details(doc, part, body, units) {
 function builtText({ master_curve: master, as_built: ride }, units) {
   const change = 100 * (ride.exit_speed_change ?? 0);
   const cost = Math.abs(change) < 1e-4 ? "" : `, ${number(Math.abs(change), 2)} % ${change < 0 ? "less" : "more"} than designed`;
+  const hops = ride.hops > 0
+    ? `; off the floor ${ride.hops === 1 ? "once" : `${ride.hops} times`}, by ${units.text("length", ride.highest_hop_m, 2)} at most` : "";
   const built = ride.arrives
-    ? `${units.text("time", ride.travel_time_s, 5)}, ${units.text("speed", ride.exit_speed_m_per_s, 4)}${cost}; ${ride.bends} bends, ${ride.joints} joints`
+    ? `${units.text("time", ride.travel_time_s, 5)}, ${units.text("speed", ride.exit_speed_m_per_s, 4)}${cost}; ${ride.bends} bends, ${ride.joints} joints${hops}`
     : `the body does not arrive${ride.stopped ? `: ${ride.stopped}` : ""}`;
   return `${master.arcs} arcs; no fewer than ${master.lower_bound} reach ${units.text("length", master.tolerance_m, 3)}. As built: ${built}.`;
 }
@@ -354,6 +356,10 @@ function shopRules(checks) {
         element("span", { class: "detail" }, check.certainty + (check.needs_checking ? ", to be checked" : ""))))))));
 }
 
+function notesList(notes) {
+  return element("ul", { class: "shop-notes" }, notes.map((note) => element("li", {}, note)));
+}
+
 // --- the section
 
 class PartsSection {
@@ -372,7 +378,8 @@ class PartsSection {
     this.numbered = true;
     const { view } = this.made;
     const pieces = this.parts.reduce((sum, part) => sum + part.quantity, 0);
-    this.node = section("parts", "The parts", this.built, this.controls,
+    const { shortfalls } = this.made;
+    this.node = section("parts", "The parts", this.built, shortfalls.length > 0 ? issueList(shortfalls) : null, this.controls,
       element("div", { class: "parts-room" },
         element("div", {},
           view === null ? null : element("div", { class: "view-holder" }, this.canvas, this.labels),
@@ -408,6 +415,7 @@ class PartsSection {
       ...(made.nests.length > 0 ? [element("h3", {}, "Sheets of stock"), stock.node] : []),
       ...(made.items.length > 0 ? [element("h3", {}, "Bought in"), ...itemsTable(made.items)] : []),
       element("h3", {}, "Rules of the shop"), ...shopRules(made.shop_checks),
+      ...(made.notes.length > 0 ? [element("h3", {}, "Notes"), notesList(made.notes)] : []),
     ]);
   }
 

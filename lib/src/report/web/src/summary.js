@@ -1,4 +1,4 @@
-import { element, scrollable, section } from "./dom.js";
+import { element, issueList, scrollable, section } from "./dom.js";
 import { bytesText, countText, number, volumeText } from "./units.js";
 
 export const NO_BREAK = "\u00a0";
@@ -263,15 +263,10 @@ function cases(doc, units) {
       element("td", {}, units.text("speed", one.exit_speed_m_per_s, 4)))))));
 }
 
-function notices({ warnings }) {
-  return element("ul", { class: "warnings" }, warnings.map((warning) => element("li", {},
-    element("strong", {}, warning.what), warning.why ? element("span", { class: "detail" }, warning.why) : null)));
-}
-
 export function summary(doc, units) {
   const heading = (text) => element("h3", {}, text);
   return section("summary", "Summary", tiles(doc, units),
-    doc.warnings.length === 0 ? null : notices(doc),
+    doc.warnings.length === 0 ? null : issueList(doc.warnings),
     doc.rides.length < 2 ? null : [heading("Range of friction"), frictions(doc, units)],
     doc.probes.length === 0 ? null : [heading("Probes"), probes(doc, units)],
     doc.cases.length === 0 ? null : [heading("Frictions and flows"), cases(doc, units)],
