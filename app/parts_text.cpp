@@ -102,10 +102,17 @@ std::string checks_text(const std::vector<ShopCheck>& checks) {
   return std::to_string(passed) + " of " + std::to_string(checks.size()) + " rules of the shop kept" + text;
 }
 
+/// A note that lists hundreds of parts begun, and where the rest of it is.
+std::string cut_short(const std::string& note) {
+  constexpr std::size_t kMost = 240;
+  if (note.size() <= kMost) return note;
+  return note.substr(0, note.find_last_of(' ', kMost)) + " ... (the whole of it is on the drawings)";
+}
+
 /// One line each; what is not as asked for is a warning beside.
 std::string notes_text(const std::vector<std::string>& notes) {
   std::string text;
-  for (const std::string& note : notes) text += (text.empty() ? "" : "\n") + note;
+  for (const std::string& note : notes) text += (text.empty() ? "" : "\n") + cut_short(note);
   return text;
 }
 
