@@ -260,21 +260,39 @@ Table designs_page_table(const std::vector<Entry>& entries) {
   });
 }
 
+std::string entered_text(const Design& design) {
+  if (design.feed) return "as fed";
+  return design.body.entry_speed > 0.0 ? "from " + speed_text(design.body.entry_speed) : "from rest";
+}
+
 Table sweep_table(const std::vector<Entry>& entries) {
   std::vector<std::string> angles;
   angles.reserve(entries.size());
   for (const Entry& entry : entries) angles.push_back(angle_text(entry.design.body.friction.angle()));
-  Row headings = {"Friction angle",    "P",         "slope at start", "at finish",    "arc length",
-                  "at constant speed", "from rest", "fastest track",  "straight line"};
+  Row headings = {"Friction angle",
+                  "P",
+                  "slope at start",
+                  "at finish",
+                  "arc length",
+                  "at constant speed",
+                  entered_text(entries.front().design),
+                  "fastest track",
+                  "straight line"};
   return table_of(std::move(headings), entries, angles, [](const Design&, const Track& track) {
     const auto& curve = dynamic_cast<const ConstantSpeedCurve&>(*track.centerline);
+    const Body& body = track.motion.body();
+    const bool keeps = kept_speed(curve, body).has_value();
+    // Where the theory knows the fastest track, one that is not there arrives nowhere.
+    const bool knows = is_sliding_point(body) && body.drag_per_metre == 0.0;
     return Row{rounded_text(curve.p(), 4) + " m^2/s^2",
                angle_text(curve.entry_slope_angle()),
                angle_text(curve.exit_slope_angle()),
                length_text(curve.length()),
-               time_text(curve.travel_time_at_constant_speed()),
+               keeps ? time_text(curve.travel_time_at_constant_speed()) : "-",
                ride_text(track.motion),
-               track.optimum_travel_time ? time_text(*track.optimum_travel_time) : "none arrives",
+               track.optimum_travel_time ? time_text(*track.optimum_travel_time)
+               : knows                   ? "none arrives"
+                                         : "-",
                track.straight ? ride_text(*track.straight) : "stalls"};
   });
 }

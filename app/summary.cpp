@@ -5,6 +5,7 @@
 #include "glissade/centerline/in_run.hpp"
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/units.hpp"
+#include "glissade/design/stream_channel.hpp"
 #include "glissade/pipeline/rules.hpp"
 
 #include "app/console.hpp"
@@ -23,6 +24,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 namespace glissade::app {
 namespace {
@@ -40,28 +42,45 @@ std::string profile_text(const FittedProfile& profile) {
          " in the root of the mean square" + open;
 }
 
+/// Depth is flow over width and speed: only in one width it is as even as the speed.
+bool runs_in_one_width(const Design& design) {
+  const auto channel = design.cross_section ? stream_channel(*design.cross_section) : std::nullopt;
+  return channel && channel->width.is_constant();
+}
+
+/// Who keeps the speed of the curve, where anybody does.
+std::string kept_speed_line(const Design& design, const ConstantSpeedCurve& curve, Body body) {
+  const bool drag = body.drag_per_metre > 0.0;
+  body.drag_per_metre = 0.0;
+  const std::optional<double> kept = kept_speed(curve, body);
+  if (!kept) return "";
+  const std::string speed = speed_text(*kept);
+  if (drag) return "\nwithout drag a body fed at " + speed + " would keep that speed";
+  const std::string time = ", for " + time_text(curve.travel_time_at_constant_speed());
+  // A range is of frictions that the curve was not made for.
+  const bool several = design.body.low_friction || design.body.high_friction;
+  const std::string nominal = several ? " at the nominal friction" : "";
+  if (!design.stream) return "\na body fed at " + speed + nominal + " keeps that speed" + time;
+  return "\nat an entry speed of " + speed + nominal + " the stream keeps its speed" +
+         (runs_in_one_width(design) ? " and its depth" : "") + time;
+}
+
 std::string kind_text(const Design& design, const Track& track) {
   const Centerline& centerline = *track.centerline;
   if (const auto* const profile = dynamic_cast<const FittedProfile*>(&centerline))
     return profile_text(*profile);
-  const bool point = is_sliding_point(track.motion.body());
   if (track.search && design.objective.kind == ObjectiveKind::least_wear)
     return "least wear within the limits: least work of rubbing on floor and walls";
   if (track.search && design.objective.kind == ObjectiveKind::least_peak_wear)
     return "least peak wear within the limits: the floor wears least where it wears most";
   if (track.search && design.objective.kind == ObjectiveKind::even_speed)
-    return "most even speed within the limits, and with it the most even burden depth";
+    return std::string("most even speed within the limits") +
+           (runs_in_one_width(design) ? ", and with it the most even burden depth" : "");
   if (track.search) return searched_name(design);
   if (centerline.kind() == "fastest") return "fastest (the brachistochrone under Coulomb friction)";
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
-    std::string name = "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)";
-    if (!point) return name;
-    if (design.stream)
-      return name + "\nat an entry speed of " + speed_text(std::sqrt(curve->p())) +
-             " the stream keeps its speed and its depth, for " +
-             time_text(curve->travel_time_at_constant_speed());
-    return name + "\n" + "a body fed at " + speed_text(std::sqrt(curve->p())) + " keeps that speed, for " +
-           time_text(curve->travel_time_at_constant_speed());
+    return "constant-speed (Pudasaini's curve, P " + rounded_text(curve->p(), 6) + " m^2/s^2)" +
+           kept_speed_line(design, *curve, track.motion.body());
   }
   if (const auto* const in_run = dynamic_cast<const InRun*>(&centerline)) return in_run_text(*in_run);
   if (centerline.kind() == "no-curvature-load") return "no-curvature-load (for comparison only)";

@@ -303,6 +303,28 @@ TEST_CASE("constant-speed curve: fastest() agrees with a golden-section search")
   CHECK(ConstantSpeedCurve::fastest({10, 5}, friction, 9.81).p() == fastest.p());
 }
 
+TEST_CASE("constant-speed curve: of travel times with several minima fastest() finds the least") {
+  const Friction friction = Friction::from_coefficient(0.2);
+  const double smallest = ConstantSpeedCurve::smallest_p({10, 5}, friction, 9.81);
+  const auto two_valleys = [&](double left, double right) {
+    return [=](const ConstantSpeedCurve& curve) {
+      const double q = std::log(curve.p() / smallest);
+      const double time = std::min(left + (q - 3.1) * (q - 3.1), right + 2.0 * (q - 8.3) * (q - 8.3));
+      return q > 20.0 ? std::numeric_limits<double>::infinity() : time;
+    };
+  };
+  const auto q_of = [&](const ConstantSpeedCurve::TravelTime& time) {
+    return std::log(ConstantSpeedCurve::fastest({10, 5}, friction, 9.81, time).p() / smallest);
+  };
+  CHECK(q_of(two_valleys(1.0, 2.0)) == Approx(3.1).epsilon(1e-6));
+  CHECK(q_of(two_valleys(2.0, 1.0)) == Approx(8.3).epsilon(1e-6));
+  // The least of the sweep's steps, at 3, lies in the other valley: 0.1 from its bottom, and none is as close to this one's.
+  CHECK(q_of(two_valleys(1.0, 0.96)) == Approx(8.3).epsilon(1e-6));
+  const auto stalls = [](const ConstantSpeedCurve&) { return std::numeric_limits<double>::infinity(); };
+  CHECK_THROWS_WITH(ConstantSpeedCurve::fastest({10, 5}, friction, 9.81, stalls),
+                    Catch::Matchers::Contains("the body arrives on none of these tracks, whatever their p"));
+}
+
 TEST_CASE("constant-speed curve: lengths and P may be scaled alike") {
   const auto metre = ConstantSpeedCurve::fastest({10, 5}, Friction::from_coefficient(0.2), 9.81);
   for (const double scale : {1e-4, 1e4}) {

@@ -72,6 +72,21 @@ TEST_CASE("a friction sweep at P = 100 gives the seven curves of the paper's fig
   }
 }
 
+TEST_CASE("a friction sweep tells nothing of bodies that it does not hold for") {
+  const std::vector<std::string> task = {"compare",          "--run",     "10", "--drop", "5",
+                                         "--friction-sweep", "5deg,10deg"};
+  const auto told = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all = task;
+    all.insert(all.end(), more.begin(), more.end());
+    return glissade_run(all).output;
+  };
+  CHECK_THAT(told({}), Contains("from rest") && Contains("0.63225 s"));
+  const std::string dragged = told({"--drag", "0.1", "--entry-speed", "3"});
+  CHECK_THAT(dragged, Contains("from 3 m/s") && !Contains("from rest") && !Contains("none arrives"));
+  // The P that is fastest with drag; a speed that is kept there is none.
+  CHECK_THAT(dragged, Contains("755.8 m^2/s^2") && !Contains("445.1 m^2/s^2") && Contains("  -  "));
+}
+
 TEST_CASE("--set replaces a value of every design that is compared") {
   const json tracks =
       compared({shipped("grain_chute"), shipped("powder_chute"), "--set", "body.friction_angle=5deg"});

@@ -180,6 +180,28 @@ TEST_CASE("without a P, the one that is fastest is told") {
   CHECK_THAT(glissade_run(summary).output, Contains("Pudasaini's curve, P ") && Contains(" m^2/s^2"));
 }
 
+TEST_CASE("with drag no speed of a constant-speed track is told as kept, and P is that of the ride") {
+  std::vector<std::string> task = {"--run", "10", "--drop", "5", "--friction-coefficient", "0.2"};
+  task.insert(task.end(), {"--centerline", "constant-speed", "--drag", "0.1", "--entry-speed", "3"});
+  const json best = solved(task);
+  CHECK(best["travel_time_s"].get<double>() == Approx(2.50009).epsilon(1e-5));
+  CHECK(best["constant_speed"]["p_m2_per_s2"].get<double>() == Approx(331.168).epsilon(1e-4));
+  CHECK(best["constant_speed"]["speed_m_per_s"].is_null());
+  CHECK(best["constant_speed"]["travel_time_at_that_speed_s"].is_null());
+  std::vector<std::string> summary = {"solve"};
+  summary.insert(summary.end(), task.begin(), task.end());
+  CHECK_THAT(
+      glissade_run(summary).output,
+      Contains("without drag a body fed at 18.2 m/s would keep that speed") && !Contains("keeps that"));
+  summary = {"solve", "--run", "10", "--drop", "5", "--friction-coefficient", "0.2", "--p", "127"};
+  CHECK_THAT(glissade_run(summary).output, Contains("a body fed at 11.27 m/s keeps that speed, for "));
+  // A crest that begins so that nothing stays on it.
+  summary = {"solve", "--run", "10", "--drop", "1", "--friction-coefficient", "0.3", "--p", "60"};
+  summary.insert(summary.end(), {"--entry-speed", "7.745967"});
+  const Outcome crest = glissade_run(summary);
+  CHECK_THAT(crest.output, Contains("leaves the track") && !Contains("keeps that speed"));
+}
+
 TEST_CASE("a load without bound is called so, and is null in --json") {
   // The cycloid starts with unbounded curvature; whoever enters it with speed meets an unbounded load.
   const std::vector<std::string> task = {"--run",         "10", "--drop", "5", "--friction-angle", "11deg",

@@ -49,10 +49,14 @@ Json profile_json(const FittedProfile& profile) {
   return json;
 }
 
-Json constant_speed_json(const ConstantSpeedCurve& curve) {
-  return {{"p_m2_per_s2", curve.p()},
-          {"speed_m_per_s", std::sqrt(curve.p())},
-          {"travel_time_at_that_speed_s", curve.travel_time_at_constant_speed()}};
+Json constant_speed_json(const ConstantSpeedCurve& curve, const Body& body) {
+  Json json = {
+      {"p_m2_per_s2", curve.p()}, {"speed_m_per_s", nullptr}, {"travel_time_at_that_speed_s", nullptr}};
+  if (const auto speed = kept_speed(curve, body)) {
+    json["speed_m_per_s"] = *speed;
+    json["travel_time_at_that_speed_s"] = curve.travel_time_at_constant_speed();
+  }
+  return json;
 }
 
 /// A place of an in-run by its letter.
@@ -87,7 +91,7 @@ void add_curve(Json& json, const Track& track) {
     json["in_run"] = in_run_json(*in_run, track.placement);
   }
   if (const auto* const curve = dynamic_cast<const ConstantSpeedCurve*>(&centerline)) {
-    json["constant_speed"] = constant_speed_json(*curve);
+    json["constant_speed"] = constant_speed_json(*curve, track.motion.body());
   }
 }
 

@@ -3,6 +3,8 @@
 #include "glissade/centerline/centerline.hpp"
 #include "glissade/core/units.hpp"
 
+#include <functional>
+
 namespace glissade {
 
 /// Pudasaini's curve, "constant-speed" in a design file: the track on which friction takes exactly what
@@ -52,6 +54,16 @@ class ConstantSpeedCurve final : public Centerline {
   /// @throws InputError as the constructor; ConvergenceError if the minimiser gives up
   [[nodiscard]] static ConstantSpeedCurve fastest(Endpoints endpoints, Friction friction, double gravity,
                                                   double entry_speed = 0.0);
+
+  /// Travel time of a body on one of these tracks [s]; +infinity where it does not arrive.
+  using TravelTime = std::function<double(const ConstantSpeedCurve&)>;
+  /// The same for any body, by its rides: drag, say, has no closed form.
+  /// @param travel_time  smooth in P where it is finite; not empty; it may be called some 200 times
+  /// @return of all minima that P in steps of e^0.5 shows, the least; as exact as what was given
+  /// @throws InfeasibleError as above, and if the body arrives on none of the tracks; others as above, and what
+  ///         travel_time throws
+  [[nodiscard]] static ConstantSpeedCurve fastest(Endpoints endpoints, Friction friction, double gravity,
+                                                  const TravelTime& travel_time);
 
   /// @return the smallest P with a track between these points that nowhere overhangs [m^2/s^2]: it starts
   ///         vertical (docs/theory.md (C9)); 0 where the mean slope equals the friction angle, as every P

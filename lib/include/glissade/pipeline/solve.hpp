@@ -1,6 +1,7 @@
 #pragma once
 
 #include "glissade/centerline/centerline.hpp"
+#include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/clearance/envelope.hpp"
 #include "glissade/core/units.hpp"
 #include "glissade/design/design.hpp"
@@ -101,6 +102,11 @@ struct LinerLoss {
 /// The curve that a design asks for, its limits left aside.
 /// @throws InputError, InfeasibleError, ConvergenceError, FileError with the location in the design
 [[nodiscard]] CenterlinePtr make_centerline(const Design& design);
+
+/// @param body  how it enters does not count
+/// @return sqrt(P), where such a body that is fed at this speed keeps it all along [m/s]; none with drag, of a body whose
+///         friction is not that of the curve, of other laws, and on a crest that does not hold a body
+[[nodiscard]] std::optional<double> kept_speed(const ConstantSpeedCurve& curve, const Body& body);
 
 /// The ride of the design's body down a given centerline, what it is measured by, and its limits checked.
 /// @param context  its measures_optimum alone counts

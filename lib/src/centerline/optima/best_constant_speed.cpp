@@ -1,14 +1,17 @@
 // The one-dimensional search behind ConstantSpeedCurve::fastest, over q = ln(P/P_min) so that no scale is
-// special. A coarse sweep brackets the least travel time, NLopt's Nelder-Mead search (LN_NELDERMEAD) ends in
-// the bracket: it needs no derivative, takes bounds, works in one dimension (LN_BOBYQA does not) and uses no
+// special. A coarse sweep brackets each travel time that is less than those beside it, NLopt's Nelder-Mead search
+// (LN_NELDERMEAD) ends in the bracket: it needs no derivative, takes bounds, works in one dimension (LN_BOBYQA does not) and uses no
 // random numbers, so the same input gives the same bits.
 #include "glissade/centerline/constant_speed_curve.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,24 +30,24 @@ constexpr int kMostEvaluations = 500;
 
 class TravelTimeOfP {
  public:
-  TravelTimeOfP(Endpoints endpoints, Friction friction, double gravity, double entry_speed)
+  TravelTimeOfP(Endpoints endpoints, Friction friction, double gravity,
+                const ConstantSpeedCurve::TravelTime& time)
       : endpoints_(endpoints),
         friction_(friction),
         gravity_(gravity),
-        entry_speed_(entry_speed),
+        time_(time),
         smallest_p_(ConstantSpeedCurve::smallest_p(endpoints, friction, gravity)) {}
 
-  [[nodiscard]] double smallest_p() const { return smallest_p_; }
   [[nodiscard]] ConstantSpeedCurve curve(double q) const {
     return {endpoints_, friction_, gravity_, smallest_p_ * math::exp(q)};
   }
-  [[nodiscard]] double operator()(double q) const { return curve(q).travel_time(entry_speed_); }
+  [[nodiscard]] double operator()(double q) const { return time_(curve(q)); }
 
  private:
   Endpoints endpoints_;
   Friction friction_;
   double gravity_;
-  double entry_speed_;
+  const ConstantSpeedCurve::TravelTime& time_;
   double smallest_p_;
 };
 
@@ -59,24 +62,42 @@ struct Bracket {
 /// search that starts on a bound stays there, so the bracket must hold a point inside.
 constexpr double kSmallestStep = 1e-9;
 
-Bracket sweep(const TravelTimeOfP& travel_time) {
-  const double time_at_smallest = travel_time(0.0);
-  double best = 0.0;
-  double least = time_at_smallest;
-  for (int step = 1; step <= kSweepSteps; ++step) {
-    const double q = step * kSweepStep;
-    const double time = travel_time(q);
-    if (time >= least) continue;
-    least = time;
-    best = q;
-  }
-  if (best > 0.0) return {best - kSweepStep, best, best + kSweepStep};
+Bracket beside_smallest(const TravelTimeOfP& travel_time, double time_at_smallest) {
   double inside = kSweepStep / 2.0;
   while (inside > kSmallestStep && travel_time(inside) >= time_at_smallest) inside /= 2.0;
   return {0.0, inside, 2.0 * inside};
 }
 
-double minimise(const TravelTimeOfP& travel_time, Bracket bracket) {
+/// Around every step of the sweep that is faster than those beside it, by more than rounding but for the fastest of all, which
+/// comes first. None where a body arrives at no step.
+std::vector<Bracket> sweep(const TravelTimeOfP& travel_time) {
+  constexpr double kRounding =
+      1e-9;  // rounding: above that of any travel time, of the flat times towards the straight line
+  std::vector<double> times;
+  for (int step = 0; step <= kSweepSteps; ++step) times.push_back(travel_time(step * kSweepStep));
+  const auto best = static_cast<int>(std::min_element(times.begin(), times.end()) - times.begin());
+  const auto time = [&](int step) { return times[static_cast<std::size_t>(step)]; };
+  if (!std::isfinite(time(best))) return {};
+  const auto around = [&](int step) {
+    const double q = step * kSweepStep;
+    return step == 0 ? beside_smallest(travel_time, time(0)) : Bracket{q - kSweepStep, q, q + kSweepStep};
+  };
+  std::vector<Bracket> brackets{around(best)};
+  for (int step = 0; step < kSweepSteps; ++step) {
+    if (step == best) continue;
+    const double deeper = time(step) * (1.0 + kRounding);
+    if ((step == 0 || deeper < time(step - 1)) && deeper < time(step + 1)) brackets.push_back(around(step));
+  }
+  return brackets;
+}
+
+/// Where a search ended [q], and the travel time there [s].
+struct Least {
+  double q = 0.0;
+  double time = 0.0;
+};
+
+Least minimise(const TravelTimeOfP& travel_time, Bracket bracket) {
   nlopt::opt search(nlopt::LN_NELDERMEAD, 1);
   search.set_min_objective([](const std::vector<double>& q, std::vector<double>&,
                               void* data) { return (*static_cast<const TravelTimeOfP*>(data))(q.front()); },
@@ -91,10 +112,10 @@ double minimise(const TravelTimeOfP& travel_time, Bracket bracket) {
   std::string failure;
   try {
     const nlopt::result result = search.optimize(q, least);
-    if (result != nlopt::MAXEVAL_REACHED) return q.front();
+    if (result != nlopt::MAXEVAL_REACHED) return {q.front(), least};
     failure = "no convergence within " + std::to_string(kMostEvaluations) + " evaluations";
   } catch (const nlopt::roundoff_limited&) {
-    return q.front();
+    return {q.front(), least};
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
@@ -110,7 +131,13 @@ double minimise(const TravelTimeOfP& travel_time, Bracket bracket) {
 
 ConstantSpeedCurve ConstantSpeedCurve::fastest(Endpoints endpoints, Friction friction, double gravity,
                                                double entry_speed) {
-  const TravelTimeOfP travel_time(endpoints, friction, gravity, entry_speed);
+  return fastest(endpoints, friction, gravity,
+                 [entry_speed](const ConstantSpeedCurve& curve) { return curve.travel_time(entry_speed); });
+}
+
+ConstantSpeedCurve ConstantSpeedCurve::fastest(Endpoints endpoints, Friction friction, double gravity,
+                                               const TravelTime& time) {
+  const TravelTimeOfP travel_time(endpoints, friction, gravity, time);
   if (!(endpoints.drop > friction.coefficient() * std::abs(endpoints.run))) {
     throw InfeasibleError(
         Issue{"",
@@ -122,8 +149,17 @@ ConstantSpeedCurve ConstantSpeedCurve::fastest(Endpoints endpoints, Friction fri
               "theorem).",
               "a lower friction angle or a larger drop; or, with an entry speed, a p of its square"});
   }
-  const Bracket bracket = sweep(travel_time);
-  return travel_time.curve(minimise(travel_time, bracket));
+  std::optional<Least> least;
+  for (const Bracket& bracket : sweep(travel_time)) {
+    const Least here = minimise(travel_time, bracket);
+    if (!least || here.time < least->time) least = here;
+  }
+  if (!least) {
+    throw InfeasibleError(
+        Issue{"", "constant-speed: the body arrives on none of these tracks, whatever their p",
+              "It stalls on each, up to the straight line.", "kind: fastest, or less drag"});
+  }
+  return travel_time.curve(least->q);
 }
 
 }  // namespace glissade

@@ -122,11 +122,22 @@ double narrows_or_widens_from(const WidthLaw& width) {
   return other == knots.end() ? HUGE_VAL : std::prev(other)->at;
 }
 
-/// A stream keeps its speed and its depth where it rubs alike all along. What begins beyond the finish changes nothing.
+/// A stream keeps its speed and its depth where it rubs alike all along, and nothing else resists. What begins beyond the finish
+/// changes nothing.
 /// @throws InputError if on a track of that length it does not
 void require_alike(const Design& design, double length) {
-  const std::vector<FrictionChange> changes = body_of(design).friction_changes;
+  const Body body = body_of(design);
+  const std::vector<FrictionChange>& changes = body.friction_changes;
   const std::string hint = " all along, or kind: fastest with objective: even_speed, which keeps the speed ";
+  if (body.drag_per_metre > 0.0) {
+    const char* const key = design.body.drag ? "body.drag_area" : "body.drag";
+    throw InputError(
+        {design.where(key), "constant-speed without p, of a stream with drag",
+         "The curve of even burden depth is that of friction alone; drag would slow the stream down "
+         "on it.",
+         "no drag, or kind: fastest with objective: even_speed, which keeps the speed and the depth "
+         "as even as they can be"});
+  }
   if (!changes.empty() && changes.front().from < length) {
     throw InputError({design.where("body.friction"),
                       "constant-speed without p, where friction changes along the track",
@@ -173,12 +184,28 @@ CenterlinePtr make_even_depth(const Design& design, const Endpoints& endpoints) 
        hint + (crest ? "steeper ends, or kind: fastest" : "ends less steep, or kind: fastest")});
 }
 
+/// What resists beside the friction of a sliding point has no closed form: every P is ridden.
+CenterlinePtr fastest_by_rides(const Design& design, const Endpoints& endpoints, const Body& body) {
+  const auto travel_time = [&](const ConstantSpeedCurve& curve) {
+    try {
+      const Motion motion(std::make_shared<ConstantSpeedCurve>(curve), body, design.gravity);
+      return motion.arrived() ? motion.travel_time() : HUGE_VAL;
+    } catch (const ConvergenceError&) {
+      return HUGE_VAL;  // so close to a stall that nothing resolves it: none that arrives first
+    }
+  };
+  return std::make_shared<ConstantSpeedCurve>(
+      ConstantSpeedCurve::fastest(endpoints, body.friction, design.gravity, travel_time));
+}
+
 CenterlinePtr make_constant_speed(const Design& design, const Endpoints& endpoints) {
   const Friction friction = design.body.friction;
   if (const auto p = design.centerline.constant_speed_p) {
     return std::make_shared<ConstantSpeedCurve>(endpoints, friction, design.gravity, *p);
   }
   if (design.stream) return make_even_depth(design, endpoints);
+  const Body body = body_of(design);
+  if (!is_sliding_point(body) || body.drag_per_metre > 0.0) return fastest_by_rides(design, endpoints, body);
   return std::make_shared<ConstantSpeedCurve>(
       ConstantSpeedCurve::fastest(endpoints, friction, design.gravity, design.body.entry_speed));
 }
