@@ -82,6 +82,17 @@ TEST_CASE("a key that is missing is asked for with an example") {
 TEST_CASE("a key given twice is refused") {
   CHECK_THAT(problems_with("tolerance: 0.5 mm", "tolerance: 0.5 mm, tolerance: 1 mm"),
              StartsWith("d.yaml:10:27: tolerance is given twice\n      It stands already at d.yaml:10:8."));
+  // Once, also in groups that are read as one of several things.
+  for (const std::string track :
+       {"{start: {x: 0 m, z: 6 m}, finish: {x: 5 m, z: 1 m}, start: {x: 0 m, z: 6 m}}",
+        "{start: {x: 0 m, x: 1 m, z: 6 m}, finish: {x: 5 m, z: 1 m}}",
+        "{edge: {x: 0 m, z: 0 m}, start: {x: free, z: free}, start: {x: free, z: free}}"}) {
+    CAPTURE(track);
+    const std::string told = problems_of(
+        "glissade: 1\nbody: {friction_angle: 17 deg}\ncenterline: {kind: fastest}\ntrack: " + track);
+    CHECK_THAT(told, Contains("is given twice"));
+    CHECK(told.find("is given twice") == told.rfind("is given twice"));
+  }
 }
 
 TEST_CASE("a value of the wrong type is refused") {

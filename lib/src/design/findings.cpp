@@ -45,6 +45,12 @@ std::map<std::string, std::string, std::less<>> Findings::locations() const {
 }
 
 void Findings::add(Position position, std::string key_path, Issue issue) {
+  // Some groups are read more than once, as one kind of what they may be and as another.
+  const auto is_same = [&](const Problem& known) {
+    return known.at == position && known.key_path == key_path && known.issue.what == issue.what &&
+           known.issue.why == issue.why;
+  };
+  if (std::any_of(problems_.begin(), problems_.end(), is_same)) return;
   // A file with thousands of problems is not a design; there is no use in sorting and showing them all.
   if (problems_.size() >= 10 * kMostReported) {
     ++left_out_;

@@ -14,6 +14,8 @@ struct Position {
   int line = 0;
   int column = 0;
   int override_index = -1;  ///< >= 0: in that override, not in the file
+
+  friend bool operator==(const Position&, const Position&) = default;
 };
 
 struct Entry;
