@@ -309,6 +309,24 @@ TEST_CASE("a mesh that cannot be measured is refused with the place") {
   CHECK(message_of({{{0, std::numeric_limits<double>::quiet_NaN(), 0}}, {}}).find("vertex 0") !=
         std::string::npos);
   CHECK(message_of({{{1e61, 0, 0}}, {}}).find("1e+60") != std::string::npos);
+  const TriangleMesh speck{{{0, 0, 0}, {1e-299, 0, 0}, {0, 1e-299, 0}}, {{0, 1, 2}}};
+  CHECK(message_of(speck).find("the mesh is 1e-299 m long, too small to be measured") == 0);
+}
+
+TEST_CASE("a cube is valid at every size that is not refused, with the angles of a cube") {
+  for (int power = -80; power <= 58; ++power) {
+    CAPTURE(power);
+    const double side = std::pow(10.0, power);
+    TriangleMesh cube = box({0.0, 0.0, 0.0}, {side, side, side});
+    if (side < kSmallestMeshSize) {
+      CHECK_THROWS_AS(measure(cube), InputError);
+      continue;
+    }
+    const MeshFacts facts = measure(cube);
+    CHECK(facts.valid());
+    CHECK(facts.smallest_angle.degrees() == Approx(45.0).epsilon(1e-12));
+    CHECK(facts.volume == Approx(side * side * side).epsilon(1e-12));
+  }
 }
 
 }  // namespace mesh_facts_test

@@ -1,8 +1,11 @@
 #include "io/mesh_reader.hpp"
 
+#include "glissade/core/number_text.hpp"
 #include "glissade/io/mesh_file.hpp"
+#include "glissade/solid/mesh_facts.hpp"
 
 #include "io/stl_layout.hpp"
+#include "solid/mesh_check.hpp"
 
 #include <array>
 #include <optional>
@@ -73,6 +76,10 @@ TriangleMesh read_mesh_bytes(ByteSource& source, const std::string& name, Length
   Reading reading(source, name, unit);
   TriangleMesh mesh = read_by_content(reading, source.size());
   if (mesh.triangles.empty()) throw reading.error("holds no facets");
+  if (const std::optional<double> size = solid::size_too_small(solid::box_of(mesh))) {
+    throw reading.error("holds a mesh " + rounded_text(*size, 3) + " m long, too small to be measured",
+                        "Sizes begin at " + rounded_text(kSmallestMeshSize, 3) + " m.");
+  }
   return mesh;
 }
 

@@ -41,6 +41,34 @@ void require_usable_positions(const TriangleMesh& mesh, std::size_t first, std::
   }
 }
 
+MeshBox box_of(const TriangleMesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  MeshBox box{mesh.vertices[mesh.triangles.front().front()], mesh.vertices[mesh.triangles.front().front()]};
+  for (const auto& facet : mesh.triangles) {
+    for (const std::uint32_t corner : facet) {
+      const Vec3& p = mesh.vertices[corner];
+      box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y), std::min(box.lower.z, p.z)};
+      box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y), std::max(box.upper.z, p.z)};
+    }
+  }
+  return box;
+}
+
+std::optional<double> size_too_small(const MeshBox& box) {
+  const Vec3 sides = box.upper - box.lower;
+  const double size = std::max({sides.x, sides.y, sides.z});
+  return size == 0.0 || size >= kSmallestMeshSize ? std::nullopt : std::optional(size);
+}
+
+void require_measurable_size(const MeshBox& box) {
+  const std::optional<double> size = size_too_small(box);
+  if (!size) return;
+  throw InputError(
+      {"", "the mesh is " + rounded_text(*size, 3) + " m long, too small to be measured",
+       "Products of lengths below " + rounded_text(kSmallestMeshSize, 3) + " m leave the range of a double.",
+       ""});
+}
+
 void require_existing_vertices(const TriangleMesh& mesh, std::size_t first, std::size_t last) {
   std::uint32_t largest = 0;
   for (std::size_t i = first; i < last; ++i) {

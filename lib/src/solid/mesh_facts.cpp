@@ -251,21 +251,6 @@ Welding weld(const std::vector<Vec3>& vertices, const std::stop_token& stop) {
   return welding;
 }
 
-/// Of what facets reach: vertices that no facet has are no part of the solid.
-void measure_bounds(const TriangleMesh& mesh, MeshFacts& facts) {
-  if (mesh.triangles.empty()) return;
-  facts.lower = facts.upper = mesh.vertices[mesh.triangles.front().front()];
-  for (const FacetCorners& facet : mesh.triangles) {
-    for (const std::uint32_t corner : facet) {
-      const Vec3& p = mesh.vertices[corner];
-      facts.lower = {std::min(facts.lower.x, p.x), std::min(facts.lower.y, p.y),
-                     std::min(facts.lower.z, p.z)};
-      facts.upper = {std::max(facts.upper.x, p.x), std::max(facts.upper.y, p.y),
-                     std::max(facts.upper.z, p.z)};
-    }
-  }
-}
-
 /// @return cotangent of the smallest angle of a triangle with these squared sides and twice this area
 double largest_cotangent(double ab, double bc, double ca, double double_area) {
   // The smallest angle faces the shortest side.
@@ -470,11 +455,14 @@ MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop) {
   check_sizes(mesh);
   require_usable_positions(mesh, 0, mesh.vertices.size(), "measured");
   require_existing_vertices(mesh, 0, mesh.triangles.size());
+  const MeshBox box = box_of(mesh);
+  require_measurable_size(box);
 
   MeshFacts facts;
   facts.vertices = mesh.vertices.size();
   facts.triangles = mesh.triangles.size();
-  measure_bounds(mesh, facts);
+  facts.lower = box.lower;
+  facts.upper = box.upper;
   {
     const Welding welding = weld(mesh.vertices, stop);
     require_going(stop);

@@ -56,7 +56,7 @@ void write_mesh(const std::filesystem::path& file, MeshFormat format, const Tria
 /// STL: vertices at equal positions become one, in the order of their first appearance. OFF: vertices stay as
 /// they are; polygons of more than three corners become triangles; colours and normals are skipped.
 /// @throws FileError if the file cannot be read, is of neither format, is truncated, has coordinates that are
-///         not finite or beyond kLargestMeshCoordinate, or counts that its size cannot hold; says where
+///         not finite or beyond kLargestMeshCoordinate, is smaller than kSmallestMeshSize, or counts that its size cannot hold; says where
 /// @throws Interrupted if `stop` asks for it
 [[nodiscard]] TriangleMesh read_mesh(const std::filesystem::path& file,
                                      LengthUnit unit = LengthUnit::millimetre,

@@ -79,9 +79,13 @@ inline constexpr double kMeshMeasureAccuracy = 1e-14;
 /// Coordinates beyond this are refused [m]: their products would leave the range of a double.
 inline constexpr double kLargestMeshCoordinate = 1e60;
 
+/// Meshes whose bounding box is smaller on its longest side are refused [m], for the same reason; one that is a single
+/// point is not.
+inline constexpr double kSmallestMeshSize = 1e-60;
+
 /// Measures a mesh; never throws for a faulty one: that is what the facts are for.
 /// @throws InputError if a triangle names a vertex that does not exist, a coordinate is not finite or beyond
-///         kLargestMeshCoordinate, or there are 2^32 - 1 vertices or triangles or more; Interrupted if `stop`
+///         kLargestMeshCoordinate, the mesh is smaller than kSmallestMeshSize, or there are 2^32 - 1 vertices or triangles or more; Interrupted if `stop`
 ///         asks for it
 [[nodiscard]] MeshFacts measure(const TriangleMesh& mesh, const std::stop_token& stop = {});
 
