@@ -89,6 +89,15 @@ std::vector<FigureRide> rides_of(const std::vector<Entry>& entries, const Naming
   return rides;
 }
 
+/// The number of an entry among all of them, from 1: a line has the style of its number in every figure.
+/// @return 0: none is so called
+int number_of(const std::vector<Entry>& entries, const std::string& name) {
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entry_name(entries[i]) == name) return static_cast<int>(i) + 1;
+  }
+  return 0;
+}
+
 std::string friction_name(const Entry& entry) {
   return angle_text(entry.design.body.friction.angle());
 }
@@ -203,7 +212,8 @@ bool is_empty(const Figure& figure) {
 
 /// Two panels over the friction angle: travel time, and the steepest slope anywhere on the track.
 /// Limits are left aside: a search for each friction would take minutes.
-KindsFigures over_friction(Design design, const Entry& own, const RunContext& context) {
+/// @param entries  the rides of all kinds, that of the design's own centerline first
+KindsFigures over_friction(Design design, const std::vector<Entry>& entries, const RunContext& context) {
   const std::string aside = design.limits ? ", without limits" : "";
   design = without_limits(std::move(design));
   design.gates.reset();  // nobody looks at their rides
@@ -220,9 +230,9 @@ KindsFigures over_friction(Design design, const Entry& own, const RunContext& co
   for (std::size_t index = 0; index < kinds.size(); ++index) {
     const CenterlineKind kind = kinds[index];
     enter(context, "travel times over friction", index, kinds.size());
-    FigureLine times{std::string(word(kind)), {}, {}, false};
+    FigureLine times{std::string(word(kind)), {}, {}, false, number_of(entries, std::string(word(kind)))};
     FigureLine slopes = times;
-    OverFriction tracks(design, kind, own, context);
+    OverFriction tracks(design, kind, entries.front(), context);
     for (const double angle : friction_angles_deg(design)) {
       const std::optional<Track> track = tracks.at(angle);
       const bool arrives = track && track->motion.arrived() && enters(track->motion);
@@ -342,9 +352,13 @@ KindsFigures kinds_figures(const Design& design, const std::vector<Entry>& entri
   const std::vector<FigureRide> rides = rides_of(entries, entry_name);
   // A free finish is by now where the track within the limits ends.
   const Design fixed = of_kind(entries.back().design, design.centerline.kind);
-  KindsFigures made = over_friction(fixed, entries.front(), context);
-  made.figures.insert(made.figures.begin(),
-                      {ride_figure(RideQuantity::profile, rides), ride_figure(RideQuantity::speed, rides)});
+  KindsFigures made = over_friction(fixed, entries, context);
+  std::vector<Figure> of_rides = {ride_figure(RideQuantity::profile, rides),
+                                  ride_figure(RideQuantity::speed, rides)};
+  for (Figure& figure : of_rides) {
+    for (FigureLine& line : figure.lines) line.choice = number_of(entries, line.name);
+  }
+  made.figures.insert(made.figures.begin(), of_rides.begin(), of_rides.end());
   return made;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
@@ -146,7 +148,25 @@ TEST_CASE("a comparison of a design with limits draws its curves over friction w
       glissade_run({"compare", "limited.yaml", "--svg", "figures.svg"}, {place.path(), {}, {}});
   INFO(outcome.errors);
   REQUIRE(outcome.exit_code == 0);
-  CHECK_THAT(bytes_of(place / "figures.svg"), Contains("Travel time over friction, without limits"));
+  const std::string svg = bytes_of(place / "figures.svg");
+  CHECK_THAT(svg, Contains("Travel time over friction, without limits"));
+  // Each track is drawn alike in all figures, no two tracks alike.
+  std::map<std::string, std::set<std::string>> styles;
+  std::map<std::string, int> figures;
+  const std::regex line(
+      R"re(<path class="line[^"]*" (stroke="[^"]*"( stroke-dasharray="[^"]*")?) d="[^"]*"><title>([^<]*))re");
+  for (std::sregex_iterator one(svg.begin(), svg.end(), line), end; one != end; ++one) {
+    styles[(*one)[3]].insert((*one)[1]);
+    ++figures[(*one)[3]];
+  }
+  CHECK(figures.at("fastest") == 4);
+  CHECK(figures.at("fastest in limits") == 2);
+  std::set<std::string> all;
+  for (const auto& [name, own] : styles) {
+    CAPTURE(name);
+    CHECK(own.size() == 1);
+    CHECK(all.insert(*own.begin()).second);
+  }
 }
 
 TEST_CASE("times over friction tell of friction that changes along the track as ride does") {
@@ -168,7 +188,7 @@ TEST_CASE("times over friction tell of friction that changes along the track as 
   REQUIRE(at != std::string::npos);
   std::string line;
   while (line.size() < 100) {
-    at = svg.find("class=\"line\"", at + 1);
+    at = svg.find("class=\"line", at + 1);
     REQUIRE(at != std::string::npos);
     const std::size_t from = svg.find(" d=\"", at) + 4;
     line = svg.substr(from, svg.find('"', from) - from);

@@ -11,7 +11,8 @@ struct FigureLine {
   std::vector<double> xs;  ///< in the unit that the figure's label names
   std::vector<double> ys;  ///< as many as xs
   bool dashed = false;
-  /// On a page that lets its reader choose what is shown: the number of the choice, from 1; 0: always shown.
+  /// The number, from 1, of what the line tells of in several figures: it has one style in all of them, and a page that
+  /// lets its reader choose what is shown hides it by that number; 0: a style by its place in the figure, always shown.
   int choice = 0;
 };
 
