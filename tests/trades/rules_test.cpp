@@ -340,6 +340,9 @@ TEST_CASE("the load on a jumper is held against the weight on this table and the
     const std::vector<Judgement> judgements = judge_rules(design, track);
     const Judgement& judged = judgement_of(judgements, "fis.in-run.load");
     CHECK(judged.rule.bound.highest == Approx(1.0 / 0.14).epsilon(1e-12));
+    // Sentence, value and bound are of one quantity, the load beyond the weight.
+    CHECK(judged.rule.sentence.find("at most 1/0.14 m/s^2 (0.73 g) more than the weight") !=
+          std::string::npos);
     CHECK((judged.verdict == RuleVerdict::pass) == (load->value <= weight + 1.0 / 0.14));
     // Where both are at E2 the load says what the radial acceleration does.
     CHECK(judged.verdict == judgement_of(judgements, "fis.in-run.radial-acceleration").verdict);
