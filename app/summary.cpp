@@ -292,8 +292,11 @@ std::string load_text(double metres_per_second_squared) {
 }
 
 std::string volume_text(double cubic_metres, int digits) {
-  if (std::fabs(cubic_metres) < 1.0) return rounded_text(cubic_metres * 1e3, digits) + " litres";
-  return rounded_text(cubic_metres, digits) + " m^3";
+  const double size = std::fabs(cubic_metres);
+  if (size >= 1.0) return rounded_text(cubic_metres, digits) + " m^3";
+  if (size >= 1e-4 || size == 0.0) return rounded_text(cubic_metres * 1e3, digits) + " litres";
+  if (size >= 1e-7) return rounded_text(cubic_metres * 1e6, digits) + " cm^3";
+  return rounded_text(cubic_metres * 1e9, digits) + " mm^3";
 }
 
 std::string count_text(std::size_t count) {

@@ -26,7 +26,8 @@ namespace glissade::app {
 [[nodiscard]] std::string acceleration_text(double metres_per_second_squared);
 /// @return "12.3 m/s^2 (1.25 g)"; "unbounded" for infinity
 [[nodiscard]] std::string load_text(double metres_per_second_squared);
-/// @return "12.3 litres" below a cubic metre, "4.56 m^3" from there
+/// @return in the unit that suits its size: "4.56 m^3", "12.3 litres", below a tenth of one "45.6 cm^3", below a tenth of
+///         that "78.9 mm^3"; "0 litres"
 [[nodiscard]] std::string volume_text(double cubic_metres, int digits);
 /// @return digits in groups of three: "48 212"
 [[nodiscard]] std::string count_text(std::size_t count);

@@ -72,6 +72,7 @@ TEST_CASE("inspect of a broken file ends with 5 and says where") {
       {"absurd.stl", binary_stl(4'000'000'000U) + std::string(50, '\0'), "4000000000"},
       {"nan.off", "OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", "nan"},
       {"truncated.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n", ""},
+      {"speck.off", "OFF\n3 1 0\n0 0 0\n1e-299 0 0\n0 1e-299 0\n3 0 1 2\n", "too small to be measured"},
       {"absurd.off", "OFF\n99999999999 1 0\n0 0 0\n", "99999999999"},
   };
   for (const Broken& broken : cases) {
@@ -81,6 +82,21 @@ TEST_CASE("inspect of a broken file ends with 5 and says where") {
     CHECK(outcome.exit_code == 5);
     CHECK(outcome.output.empty());
     CHECK_THAT(outcome.errors, Contains(broken.name) && Contains(broken.message));
+  }
+}
+
+TEST_CASE("inspect tells a volume in the unit that suits its size") {
+  for (const auto& [side, volume] :
+       std::vector<std::pair<std::string, std::string>>{{"0.1", "0.000166667 mm^3"},
+                                                        {"5", "20.8333 mm^3"},
+                                                        {"30", "4.5 cm^3"},
+                                                        {"100", "0.166667 litres"},
+                                                        {"3000", "4.5 m^3"}}) {
+    const std::string corners = "0 0 0\n" + side + " 0 0\n0 " + side + " 0\n0 0 " + side + "\n";
+    const Outcome outcome =
+        inspected("OFF\n4 4 0\n" + corners + "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n", "corner.off");
+    INFO(outcome.output);
+    CHECK_THAT(outcome.output, Contains(" " + volume + "\n"));
   }
 }
 
