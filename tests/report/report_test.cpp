@@ -105,6 +105,19 @@ TEST_CASE("report data: the ride is the referee's, to the last digit") {
   CHECK(document["mesh"]["triangles"] == chute.facts().triangles);
 }
 
+TEST_CASE("report data: start, run and direction lead to where the body is on the site, to the last digit") {
+  const Chute chute;
+  const json document = json::parse(report_json(chute.input()));
+  const json& placement = document["placement"];
+  const json& stations = document["stations"];
+  for (std::size_t i = 0; i < stations["x_m"].size(); ++i) {
+    const double run = stations["x_m"][i];
+    const Vec3 there = chute.input().placement.to_space(run, stations["drop_m"][i], 0.0);
+    CHECK(placement["start_m"][0].get<double>() + run * placement["direction"][0].get<double>() == there.x);
+    CHECK(placement["start_m"][1].get<double>() + run * placement["direction"][1].get<double>() == there.y);
+  }
+}
+
 TEST_CASE("report data: every column of the stations has the same length, the energies add up") {
   const Chute chute;
   const json document = json::parse(report_json(chute.input()));
@@ -220,7 +233,8 @@ TEST_CASE("report: a solid with more facets than the view holds is shown with fe
   REQUIRE(written > kViewTriangles);
   const json document = json::parse(report_json(chute.input()));
   const std::string note = document["view"]["note"];
-  CHECK(note.find("The files hold " + std::to_string(written) + " facets") != std::string::npos);
+  const std::string apart = std::to_string(written).insert(3, "\u202f");
+  CHECK(note.find("The files hold " + apart + " facets") != std::string::npos);
   // Twelve bytes a facet, four characters for three bytes.
   CHECK(document["view"]["indices"]["data"].get<std::string>().size() <= kViewTriangles * 12 * 4 / 3 + 4);
   CHECK(document["mesh"]["triangles"] == written);

@@ -407,8 +407,10 @@ nlohmann::ordered_json report_document(const ReportInput& input) {
       {"centerline",
        input.centerline.empty() ? std::string(input.motion->centerline().kind()) : input.centerline},
       {"cross_section", input.solid.section ? std::string(input.solid.section->kind()) : "none"}};
+  const Vec3 along = input.placement.at_origin().to_space(1.0, 0.0, 0.0);
   document["placement"] = {{"start_m", position_json(input.placement.start())},
                            {"finish_m", position_json(finish_of(input))},
+                           {"direction", {along.x, along.y}},
                            {"azimuth_deg", input.placement.azimuth().degrees()}};
   document["endpoints"] = {{"run_m", input.endpoints.run}, {"drop_m", input.endpoints.drop}};
   document["body"] = ridden_body(input);

@@ -3,6 +3,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/grouped.hpp"
 #include "parts/bodies/body_mesh.hpp"
 #include "report/serial/packed.hpp"
 #include "report/view_mesh.hpp"
@@ -225,7 +226,7 @@ Json body_json(const ShopPart& part, const TriangleMesh& body, const std::vector
 }
 
 std::string note_of(const Drawn& drawn) {
-  std::string note = "Bodies are drawn with " + std::to_string(triangles_of(drawn.bodies)) +
+  std::string note = "Bodies are drawn with " + core::grouped(triangles_of(drawn.bodies)) +
                      " facets, arcs within " + length_text(drawn.sagitta, 2);
   if (drawn.merged) note += "; corners of printed pieces that are closer together than that are one";
   return note + ". The files hold the exact ones.";

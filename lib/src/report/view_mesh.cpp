@@ -3,6 +3,8 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/grouped.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -99,10 +101,9 @@ ViewMesh make_view(const ReportInput& input) {
     double tolerance = input.design->mesh.tolerance;
     const Solid solid = coarser(input, tolerance);
     pack(input, solid.mesh, view);
-    view.note = "The files hold " + std::to_string(written.triangles.size()) +
-                " facets; this view shows the same solid with " +
-                std::to_string(solid.mesh.triangles.size()) + " (tolerance " + length_text(tolerance, 3) +
-                ").";
+    view.note = "The files hold " + core::grouped(written.triangles.size()) +
+                " facets; this view shows the same solid with " + core::grouped(solid.mesh.triangles.size()) +
+                " (tolerance " + length_text(tolerance, 3) + ").";
   }
   const Vec3 size = view.upper - view.lower;
   const double step = std::max({size.x, size.y, size.z}) / ViewMesh::kSteps;

@@ -17,6 +17,9 @@ const shipped = readdirSync(designs).filter((name) => name.endsWith(".yaml")).so
 
 const nearly = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-9 * Math.max(Math.abs(a), Math.abs(b), 1e-12), `${what}: ${a} against ${b}`);
 
+// A count as the whole page writes it.
+const grouped = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, "\u202f");
+
 let browser;
 let plain; // without WebGL
 let chute;
@@ -74,7 +77,7 @@ describe("a solid of a million facets", () => {
     assert.ok(json.mesh.triangles > 1e6, `${json.mesh.triangles} facets`);
     assert.ok(statSync(file).size < 10e6, `${statSync(file).size} bytes`);
     const { page, complaints } = await open(plain, file, SMALL);
-    assert.match(await page.locator("#solid").textContent(), new RegExp(`The files hold ${json.mesh.triangles} facets; this view shows`));
+    assert.match(await page.locator("#solid").textContent(), new RegExp(`The files hold ${grouped(json.mesh.triangles)} facets; this view shows`));
     assert.deepEqual(complaints, []);
     await page.close();
   });
@@ -126,7 +129,7 @@ describe("plots and profile", () => {
   });
 
   test("switch from arc length to run and time", async () => {
-    for (const [key, label] of [["time_s", "time [s]"], ["x_m", "run x [m]"]]) {
+    for (const [key, label] of [["time_s", "time [s]"], ["x_m", "run [m]"]]) {
       await page.getByLabel("Against").selectOption(key);
       const [xs, shown, wanted] = await page.evaluate((column) => {
         const { charts, document: doc } = window.glissadeReport;
@@ -298,7 +301,7 @@ describe("a range of friction", () => {
       await page.locator("header select").first().selectOption(level);
       const text = await told();
       assert.ok(text.includes(`at ${level} friction`), text);
-      assert.ok(text.includes(`% ${level === "low" ? "faster" : "slower"} than at nominal friction`), text);
+      assert.ok(text.includes(`% ${level === "low" ? "less" : "more"} than at nominal friction`), text);
       assert.ok(!text.includes("optimum") && !text.includes("straight line"), text);
     }
     assert.ok(json.rides[0].travel_time_s < json.travel_time_s);
@@ -436,7 +439,7 @@ export: [stl]
         const wanted = place.map((value) => String(Number((factor * value).toFixed(2)))).join(", ");
         assert.ok(text.includes(wanted), `${wanted} in ${text}`);
       }
-      const z = await page.locator("#stations tbody tr").evaluateAll((rows) => rows.map((row) => Number(row.cells[2].textContent)));
+      const z = await page.locator("#stations tbody tr").evaluateAll((rows) => rows.map((row) => Number(row.cells[3].textContent)));
       assert.ok(Math.abs(z.at(-1) - factor * 2850.85) < 1e-3 * factor && z.every((value, i) => value !== z[i - 1]), z.join(" "));
       for (let zoom = 0; zoom < 12; zoom += 1) {
         const axes = await page.evaluate(() => {
@@ -473,7 +476,7 @@ export: [stl]
         const row = rows.find(([s]) => s === probe.arc_length_m);
         assert.ok(row, `a row at ${probe.arc_length_m}`);
         const state = probe.states.find(({ friction }) => friction === level);
-        for (const [value, wanted] of [[row[1], probe.x_m], [row[3], probe.slope_angle_deg], [row[4], probe.curvature_per_m], [row[6], state.speed_m_per_s], [row[7], state.time_s], [row[8], state.normal_load_m_per_s2 / 9.80665]]) {
+        for (const [value, wanted] of [[row[1], probe.position_m[0]], [row[2], probe.position_m[1]], [row[3], probe.position_m[2]], [row[4], probe.slope_angle_deg], [row[5], probe.curvature_per_m], [row[7], state.speed_m_per_s], [row[8], state.time_s], [row[9], state.normal_load_m_per_s2 / 9.80665]]) {
           assert.ok(Math.abs(value - wanted) <= 1e-11 * Math.abs(wanted), `${level}, s = ${row[0]}: ${value} for ${wanted}`);
         }
       }
@@ -487,6 +490,105 @@ export: [stl]
       const sums = parts[0].map((_, i) => parts.reduce((sum, part) => sum + part[i], 0));
       sums.forEach((sum) => assert.ok(Math.abs(sum - sums[0]) < 1e-8 * sums[0], `${level}: ${sum} against ${sums[0]}`));
     }
+  });
+});
+
+describe("places on the page", () => {
+  // One page for all of them, each with a design of its own.
+  let view;
+  before(async () => {
+    view = await open(plain, chute.file, SMALL);
+  });
+  after(() => view.page.close());
+
+  const built = (name, track, more = "") => {
+    const file = path.join(work, `${name}.yaml`);
+    writeFileSync(file, `glissade: 1
+track: ${track}
+body: {friction_angle: 11 deg}
+centerline: {kind: straight}
+cross_section: {kind: slab, width: 200 mm, thickness: 20 mm}
+export: [stl, csv]
+${more}`);
+    return build(file);
+  };
+  const rowsOf = (text) => text.trim().split("\n").map((line) => line.split(","));
+  const download = async (page) => {
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "CSV" }).click()]);
+    return rowsOf(readFileSync(await saved.path(), "utf8"));
+  };
+  const ofBuild = (file, stem) => {
+    const [head, ...rows] = rowsOf(readFileSync(path.join(path.dirname(file), `${stem}.csv`), "utf8"));
+    return ["x_m", "y_m", "z_m"].map((key) => [rows[0], rows.at(-1)].map((row) => Number(row[head.indexOf(key)])));
+  };
+
+  test("x is that of the site in table, cursor line and CSV, as in the build's CSV, and falls where the track runs to the left", async () => {
+    const { file } = built("left", "{start: {x: 100 m, z: 2.5 m}, finish: {x: 97 m, z: 1 m}}");
+    const { page, complaints, visit } = view;
+    await visit(file);
+    const [head, ...rows] = await download(page);
+    assert.deepEqual(head.slice(0, 4), ["s [m]", "x [m]", "z [m]", "slope angle [deg]"]);
+    const [x, , z] = ofBuild(file, "left");
+    assert.deepEqual([rows[0], rows.at(-1)].map((row) => Number(row[1])), x);
+    assert.deepEqual([rows[0], rows.at(-1)].map((row) => Number(row[2])), z);
+    assert.ok(rows.every((row, i) => i === 0 || Number(row[1]) < Number(rows[i - 1][1])));
+    const cells = await page.locator("#stations tbody tr").evaluateAll((all) => [all[0], all.at(-1)].map((row) => row.cells[1].textContent));
+    assert.deepEqual(cells.map(Number), [100, 97]);
+    await page.locator("#chart-slope").focus();
+    for (const [key, wanted] of [["Home", 100], ["End", 97]]) {
+      await page.keyboard.press(key);
+      assert.equal(Number.parseFloat(await page.locator('#readout [data-field="site_x_m"]').textContent()), wanted);
+    }
+    assert.equal(await page.locator('#readout [data-field="site_y_m"]').count(), 0);
+    assert.equal(await page.locator("svg.profile text.axis").first().textContent(), "run [m]");
+    assert.deepEqual(complaints, []);
+  });
+
+  test("a track that is turned in plan has x and y, and what counts along its run says so", async () => {
+    const more = "probes: [{x: 1 m}]\nlimits:\n  keep_outs: [{outline: [[1 m, 0 m], [1.5 m, 0 m], [1.2 m, 0.5 m]], clearance: 50 mm}]\n";
+    const { file } = built("turned", "{start: {x: 10 m, y: 4 m, z: 2.5 m}, finish: {x: 12 m, y: 7 m, z: 1 m}}", more);
+    const { page, complaints, visit } = view;
+    await visit(file);
+    const [head, ...rows] = await download(page);
+    assert.deepEqual(head.slice(0, 4), ["s [m]", "x [m]", "y [m]", "z [m]"]);
+    ofBuild(file, "turned").forEach((ends, axis) => assert.deepEqual([rows[0], rows.at(-1)].map((row) => Number(row[axis + 1])), ends));
+    assert.match(await page.locator("#summary table.probes").textContent(), /run = 1 m/);
+    assert.match(await page.locator("#limits .detail", { hasText: "closest" }).first().textContent(), /, at run = \S+\u00a0m, z = /);
+    assert.deepEqual(complaints, []);
+  });
+
+  test("a tiny part has its volume in mm\u00b3", async () => {
+    const file = path.join(work, "tiny.yaml");
+    writeFileSync(file, `glissade: 1
+track: {start: {x: 0 m, z: 1 mm}, finish: {x: 1.5 mm, z: 0 mm}}
+body: {friction_angle: 17 deg}
+centerline: {kind: straight}
+cross_section: {kind: u-channel, width: 0.1 mm, wall_height: 0.05 mm, thickness: 0.002 mm}
+mesh: {tolerance: 0.001 mm}
+export: [stl]
+`);
+    const { file: report, json } = build(file);
+    const { page, visit } = view;
+    await visit(report);
+    const [, told] = /Volume([\d.e-]+)\u00a0mm\u00b3/.exec(await page.locator("#summary").textContent());
+    assert.ok(Math.abs(Number(told) / (1e9 * json.mesh.mesh_volume_m3 || 1e9 * json.mesh.volume_m3) - 1) < 1e-3, told);
+  });
+
+  test("counts have their thousands apart, one way on the whole page", async () => {
+    const { page, visit } = view;
+    await visit(chute.file);
+    const text = await page.locator("#summary").textContent();
+    const count = grouped(chute.json.mesh.triangles);
+    assert.ok(count.includes("\u202f") && text.includes(`oriented outward; ${count} facets`) && text.includes(`${count} and `), text);
+    assert.ok(!text.includes(String(chute.json.mesh.triangles)));
+  });
+
+  test("times are held against others as the summary of the program does", async () => {
+    const { page, visit } = view;
+    await visit(chute.file);
+    const told = await page.locator("#summary dl.tiles").textContent();
+    assert.match(told, /\d\u00a0% (more|less) than the straight line/);
+    assert.doesNotMatch(told, /faster|slower/);
   });
 });
 

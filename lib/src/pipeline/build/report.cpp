@@ -7,6 +7,8 @@
 #include "glissade/pipeline/probes.hpp"
 #include "glissade/pipeline/rules.hpp"
 
+#include "core/grouped.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -132,14 +134,14 @@ std::vector<ReportCheck> ride_checks(const Motion& motion, double gravity) {
 ReportCheck watertight(const MeshFacts& facts, const Solid& solid) {
   const bool one_piece = facts.components == 1 && facts.euler_characteristic == solid.expected_euler;
   return {"The solid is watertight", verdict(facts.watertight() && facts.oriented_outward && one_piece),
-          "closed, manifold, one piece, oriented outward; " + std::to_string(facts.triangles) + " facets"};
+          "closed, manifold, one piece, oriented outward; " + core::grouped(facts.triangles) + " facets"};
 }
 
 ReportCheck self_intersections(const MeshFacts& facts) {
   const bool none = facts.self_intersections == 0 && facts.self_intersections_complete;
   return {"It does not intersect itself", verdict(none && facts.degenerate_facets == 0),
-          std::to_string(facts.self_intersections) + " pairs of facets meet where they must not, " +
-              std::to_string(facts.degenerate_facets) + " facets without area"};
+          core::grouped(facts.self_intersections) + " pairs of facets meet where they must not, " +
+              core::grouped(facts.degenerate_facets) + " facets without area"};
 }
 
 ReportCheck deviation(const Design& design, double max_deviation) {

@@ -10,7 +10,7 @@
 namespace glissade {
 namespace {
 
-std::string name_of(const ProbeDesign& probe) {
+std::string name_of(const ProbeDesign& probe, const TrackDesign& track) {
   if (!probe.name.empty()) return probe.name;
   switch (probe.origin) {
     case ProbeOrigin::start:
@@ -18,7 +18,8 @@ std::string name_of(const ProbeDesign& probe) {
     case ProbeOrigin::finish:
       return length_text(probe.at) + " from the finish";
     case ProbeOrigin::x:
-      return "x = " + length_text(probe.at);
+      // Of a track that is turned in plan it counts along the run, which is no x of the site.
+      return (track.start.y == track.finish.y ? "x = " : "run = ") + length_text(probe.at);
   }
   return "";
 }
@@ -53,7 +54,7 @@ std::vector<ProbeReading> probe_readings(const Design& design, const Track& trac
   for (const ProbeDesign& probe : design.probes) {
     const auto s = arc_length_of(design, track, probe);
     if (!s) continue;
-    ProbeReading reading{name_of(probe), track.centerline->at(*s), {}, {}};
+    ProbeReading reading{name_of(probe, design.track), track.centerline->at(*s), {}, {}};
     reading.position = track.placement.to_space(reading.point.x, reading.point.drop, 0.0);
     for (const LevelRide& ride : track.rides()) {
       ProbeState state{ride.level, {}};
@@ -72,7 +73,7 @@ std::vector<Issue> pipeline::probes_beside_track(const Design& design, const Tra
     if (arc_length_of(design, track, probe)) continue;
     const std::string key = "probes[" + std::to_string(index) + "]";
     issues.push_back({design.where("probes." + std::to_string(index)),
-                      key + ", " + name_of(probe) + ", does not lie on the track",
+                      key + ", " + name_of(probe, design.track) + ", does not lie on the track",
                       "The track is " + length_text(track.centerline->length()) + " long and has a run of " +
                           length_text(track.endpoints.run) + ".",
                       "a place on it"});

@@ -2,6 +2,7 @@ import uPlot from "uplot";
 import { radiusOf } from "./data.js";
 import { button, element, section, select, svgElement, themeColour } from "./dom.js";
 import { TITLE_LINE, exportButtons, noteLines, titleLines } from "./export.js";
+import { isPlace, siteColumns, siteFields } from "./site.js";
 import { columnText, tickTexts } from "./units.js";
 
 const SYNC = "glissade";
@@ -12,7 +13,7 @@ const NOTE = 11;  // size of the note below the title of a saved chart, in CSS p
 
 const AXES = {
   arc_length_m: ["arc length s", "length"],
-  x_m: ["run x", "length"],
+  x_m: ["run", "length"],
   time_s: ["time", "time"],
 };
 
@@ -304,24 +305,26 @@ class Chart {
 
 function readout(doc, store, units) {
   const { stations } = doc;
+  const sites = siteColumns(doc, stations.x_m);
+  const column = (key) => sites[key] ?? stations[key];
   const list = element("dl", { class: "readout", id: "readout", "aria-label": "At the cursor", "aria-live": "polite" });
   const fields = [
-    ["s", "length", "arc_length_m"], ["x", "length", "x_m"], ["z", "length", "z_m"], ["time", "time", "time_s"],
+    ["s", "length", "arc_length_m"], ...siteFields(doc), ["z", "length", "z_m"], ["time", "time", "time_s"],
     ["speed", "speed", "speed_m_per_s"], ["slope", "angle", "slope_angle_deg"], ["load", "load", "normal_load_m_per_s2"],
   ];
   let texts = [];
   const measure = () => {
     const place = units.place(doc.ride.arc_length_m, true);
     texts = fields.map(([, quantity, key]) => {
-      if (key === "z_m") return (value) => `${place(value)}\u00a0${units.unit(quantity)}`;
-      const text = columnText(stations[key].map((v) => units.convert(quantity, v)), 5);
+      if (isPlace(key)) return (value) => `${place(value)}\u00a0${units.unit(quantity)}`;
+      const text = columnText(column(key).map((v) => units.convert(quantity, v)), 5);
       return (value) => (value === null ? units.missing(quantity) : `${text(units.convert(quantity, value))}\u00a0${units.unit(quantity)}`);
     });
   };
   const draw = () => {
     const station = store.get("station");
     list.replaceChildren(...fields.map(([name, , key], i) => element("div", {},
-      element("dt", {}, name), element("dd", { "data-field": key }, texts[i](stations[key][station])))));
+      element("dt", {}, name), element("dd", { "data-field": key }, texts[i](column(key)[station])))));
   };
   measure();
   draw();

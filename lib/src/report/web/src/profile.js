@@ -14,7 +14,7 @@ function niceStep(span, count) {
   return [1, 2, 5, 10].map((k) => k * decade).find((step) => step >= rough);
 }
 
-// Side view to scale: one length on x is the same length on z.
+// Side view to scale: one length along the run is the same length on z.
 class Profile {
   constructor(doc, store, units) {
     Object.assign(this, { doc, store, units });
@@ -164,7 +164,7 @@ class Profile {
         svgElement("text", { class: "tick", x: at.left - 8, y: y + 4, "text-anchor": "end" }, heightLabels[i]));
     }
     nodes.push(
-      svgElement("text", { class: "axis", x: (at.left + right) / 2, y: bottom + 36, "text-anchor": "middle" }, `run x [${unit}]`),
+      svgElement("text", { class: "axis", x: (at.left + right) / 2, y: bottom + 36, "text-anchor": "middle" }, `run [${unit}]`),
       svgElement("text", { class: "axis", transform: `translate(14 ${(MARGIN.top + bottom) / 2}) rotate(-90)`, "text-anchor": "middle" }, `height z [${unit}]`));
     return { nodes, room: 30 + DIGIT_WIDTH * Math.max(...heightLabels.map((text) => text.length), 0) };
   }

@@ -1,10 +1,11 @@
 import { button, element, scrollable, section, select } from "./dom.js";
 import { decodeArray } from "./data.js";
+import { isPlace, isTurned, siteColumns, siteFields } from "./site.js";
 import { columnText, number, quantityOf, superscripts } from "./units.js";
 
-const COLUMNS = [
+const columnsFor = (doc) => [
   ["s", "length", "arc_length_m"],
-  ["x", "length", "x_m"],
+  ...siteFields(doc),
   ["z", "length", "z_m"],
   ["slope angle", "angle", "slope_angle_deg"],
   ["curvature", "curvature", "curvature_per_m"],
@@ -17,27 +18,27 @@ const COLUMNS = [
 const MISSING = { curvature_per_m: "unbounded", radius_m: "straight", normal_load_m_per_s2: "unbounded" };
 
 // Rows at a multiple of the finest spacing, each as the motion tells it; the radius from the curvature.
-function rowsAt(table, multiple) {
+function rowsAt(table, columns, multiple) {
   const { arc_length_m: places } = table;
   const length = places[places.length - 1];
   const rows = places.map((_, i) => i).filter((i) => i % multiple === 0 || i === places.length - 1);
   return rows.map((i) => {
-    const row = Object.fromEntries(COLUMNS.filter(([, , key]) => key !== "radius_m").map(([, , key]) => [key, table[key][i]]));
+    const row = Object.fromEntries(columns.filter(([, , key]) => key !== "radius_m").map(([, , key]) => [key, table[key][i]]));
     const { curvature_per_m: curvature } = row;
     row.radius_m = curvature === null ? 0 : Math.abs(curvature) < 1e-6 / length ? null : 1 / Math.abs(curvature);
     return row;
   });
 }
 
-const columnsOf = (table) => Object.fromEntries(Object.entries(table).filter(([, column]) => column.data !== undefined)
+const unpacked = (table) => Object.fromEntries(Object.entries(table).filter(([, column]) => column.data !== undefined)
   .map(([key, column]) => [key, Array.from(decodeArray(column), (value) => (Number.isNaN(value) ? null : value))]));
 
 // The finest spacing and its multiples that leave a table of two rows and more.
 const multiplesOf = ({ arc_length_m: places }) => [1, 2, 5, 10, 20, 50].filter((k) => k === 1 || places.length > 2 * k);
 
-function csv(doc, units, rows) {
-  const head = COLUMNS.map(([name, quantity]) => `${name} [${units.unit(quantity)}]`).join(",");
-  const body = rows.map((row) => COLUMNS.map(([, quantity, key]) => {
+function csv(columns, units, rows) {
+  const head = columns.map(([name, quantity]) => `${name} [${units.unit(quantity)}]`).join(",");
+  const body = rows.map((row) => columns.map(([, quantity, key]) => {
     const value = units.convert(quantity, row[key]);
     return value === null ? "" : String(value);
   }).join(","));
@@ -48,33 +49,35 @@ export function stationTable(doc, store, units) {
   const body = element("tbody");
   const head = element("thead");
   const status = element("span", { role: "status", class: "status" });
-  const track = columnsOf(doc.table);
+  const unsited = unpacked(doc.table);
+  const track = { ...unsited, ...siteColumns(doc, unsited.x_m) };
+  const columns = columnsFor(doc);
   const options = multiplesOf(track);
   let multiple = options[Math.min(3, options.length - 1)];
 
   const ride = () => doc.rides.find(({ friction }) => friction === (doc.ride.friction ?? "nominal"));
-  const rows = () => rowsAt({ ...track, ...columnsOf(ride().table) }, multiple);
+  const rows = () => rowsAt({ ...track, ...unpacked(ride().table) }, columns, multiple);
   const draw = () => {
-    head.replaceChildren(element("tr", {}, COLUMNS.map(([name, quantity]) =>
+    head.replaceChildren(element("tr", {}, columns.map(([name, quantity]) =>
       element("th", { scope: "col" }, name, element("span", { class: "unit" }, ` [${units.unit(quantity)}]`)))));
     const shown = rows();
     const place = units.place(doc.ride.arc_length_m, true);
-    const columns = COLUMNS.map(([, quantity, key]) => {
+    const texts = columns.map(([, quantity, key]) => {
       const values = shown.map((row) => units.convert(quantity, row[key]));
       // Radii of one track differ by orders of magnitude: each has its own digits.
       const text = key === "radius_m" ? (value) => number(value, 5) : columnText(values);
-      if (key === "z_m") return shown.map((row) => place(row[key]));
+      if (isPlace(key)) return shown.map((row) => place(row[key]));
       return values.map((value) => (value === null ? MISSING[key] ?? "\u2013" : text(value)));
     });
     body.replaceChildren(...shown.map((_, i) =>
-      element("tr", {}, columns.map((column) => element("td", {}, column[i])))));
+      element("tr", {}, texts.map((column) => element("td", {}, column[i])))));
   };
   draw();
   for (const key of ["units", "friction"]) store.on(key, draw);
 
   const copy = async () => {
     try {
-      await navigator.clipboard.writeText(csv(doc, units, rows()).replaceAll(",", "\t"));
+      await navigator.clipboard.writeText(csv(columns, units, rows()).replaceAll(",", "\t"));
       status.textContent = "Copied.";
     } catch {
       status.textContent = "The browser refused the clipboard; use CSV.";
@@ -82,7 +85,7 @@ export function stationTable(doc, store, units) {
   };
   const save = () => {
     const link = element("a", {
-      href: URL.createObjectURL(new Blob([csv(doc, units, rows())], { type: "text/csv" })),
+      href: URL.createObjectURL(new Blob([csv(columns, units, rows())], { type: "text/csv" })),
       download: `${doc.design.stem}-stations.csv`,
     });
     link.click();
@@ -159,11 +162,12 @@ function priceText(limit, units) {
   return `${text} looser, ${limit.tightening_price === null ? "no track" : shown(limit.tightening_price)} tighter`;
 }
 
-// Of a clearance that the whole solid keeps: which part of it comes closest, and where.
-function closestText(limit, units, extent) {
+// Of a clearance that the whole solid keeps: which part of it comes closest, and where, as the design's limits count.
+function closestText(limit, units, { placement, ride }) {
   if (!limit.closest) return null;
   const { part, x_m: x, z_m: z } = limit.closest;
-  return element("span", { class: "detail" }, `closest: ${part}, at x = ${units.placeText(x, extent)}, z = ${units.placeText(z, extent)}`);
+  const place = (value) => units.placeText(value, ride.arc_length_m);
+  return element("span", { class: "detail" }, `closest: ${part}, at ${isTurned(placement) ? "run" : "x"} = ${place(x)}, z = ${place(z)}`);
 }
 
 export function limitTable(doc, store, units) {
@@ -173,7 +177,7 @@ export function limitTable(doc, store, units) {
     element("th", { scope: "row" }, element("span", { class: "limit-name" }, limit.name), element("code", { class: "key" }, limit.limit)),
     element("td", {}, boundText(limit, units)),
     element("td", {}, reachedText(limit, units)),
-    element("td", {}, placeText(limit, units), closestText(limit, units, doc.ride.arc_length_m)),
+    element("td", {}, placeText(limit, units), closestText(limit, units, doc)),
     element("td", {}, limit.status),
     element("td", {}, priceText(limit, units)))));
   draw();

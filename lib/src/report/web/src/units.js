@@ -143,8 +143,11 @@ export function millimetres(metres) {
   return `${number(Math.round(1e7 * metres) / 1e4, 6)}\u00a0mm`;
 }
 
+// In the unit that suits its size, as the summary of the program has it.
 export function volumeText(cubicMetres) {
-  return cubicMetres < 1 ? `${number(1e3 * cubicMetres, 4)}\u00a0litres` : `${number(cubicMetres, 4)}\u00a0m\u00b3`;
+  const size = Math.abs(cubicMetres);
+  const [factor, unit] = size >= 1 ? [1, "m\u00b3"] : size >= 1e-4 || size === 0 ? [1e3, "litres"] : size >= 1e-7 ? [1e6, "cm\u00b3"] : [1e9, "mm\u00b3"];
+  return `${number(factor * cubicMetres, 4)}\u00a0${unit}`;
 }
 
 export function bytesText(bytes) {
