@@ -254,7 +254,7 @@ void tell_wide_spans(const Trestles& all, const Shell& shell) {
 /// Says where track sticks out too far beyond an end of the row.
 /// @param beyond  the stretch beyond it
 /// @param where   "above support 1"
-void tell_end(const Trestles& all, const Shell& shell, const Span& beyond, const std::string& where) {
+void tell_end(const Shell& shell, const Span& beyond, const std::string& where) {
   const SupportOptions& supports = *shell.options.supports;
   const double length = shell.track.length();
   const double out = beyond.to - beyond.from;
@@ -285,9 +285,8 @@ void tell_end(const Trestles& all, const Shell& shell, const Span& beyond, const
 void tell_spans(const Trestles& all, const Shell& shell) {
   if (all.empty()) return;
   tell_wide_spans(all, shell);
-  tell_end(all, shell, {0.0, all.front().place.at}, "above support 1");
-  tell_end(all, shell, {all.back().place.at, shell.track.length()},
-           "below support " + std::to_string(all.size()));
+  tell_end(shell, {0.0, all.front().place.at}, "above support 1");
+  tell_end(shell, {all.back().place.at, shell.track.length()}, "below support " + std::to_string(all.size()));
 }
 
 /// Says that there is no trestle at all.
