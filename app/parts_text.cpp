@@ -37,17 +37,11 @@ std::string pieces_text(const Workshop& workshop, const PartsProof& proof) {
 /// One line a stock: "6 of 400 HB, 6 mm, 3 m x 1.5 m: 67 % used".
 std::string stock_text(const std::vector<NestedSheet>& sheets) {
   std::string text;
-  for (auto first = sheets.begin(); first != sheets.end();) {
-    const auto next = std::find_if(first, sheets.end(), [&](const NestedSheet& sheet) {
-      return sheet.material != first->material || sheet.thickness != first->thickness;
-    });
-    const auto count = static_cast<std::size_t>(next - first);
-    double used = 0.0;
-    for (auto sheet = first; sheet != next; ++sheet) used += sheet->utilisation / static_cast<double>(count);
-    text += (text.empty() ? "" : "\n") + counted(count, "sheet") + " of " + first->material + ", " +
-            length_text(first->thickness) + ", " + length_text(first->stock.width) + " x " +
-            length_text(first->stock.height) + ": " + rounded_text(100.0 * used, 2) + " % used";
-    first = next;
+  for (const StockGroup& group : by_stock(sheets)) {
+    const NestedSheet& first = group.sheets.front();
+    text += (text.empty() ? "" : "\n") + counted(group.sheets.size(), "sheet") + " of " + first.material +
+            ", " + length_text(first.thickness) + ", " + length_text(first.stock.width) + " x " +
+            length_text(first.stock.height) + ": " + rounded_text(100.0 * group.utilisation, 2) + " % used";
   }
   return text;
 }

@@ -120,6 +120,18 @@ TEST_CASE("parts whose thicknesses differ by rounding share a sheet, and no two 
   CHECK(mixed > 0);
   std::sort(names.begin(), names.end());
   CHECK(std::unique(names.begin(), names.end()) == names.end());
+  // Counted by stock they are as many as their names say.
+  const std::vector<StockGroup> groups = by_stock(sheets);
+  REQUIRE(groups.size() == 2);
+  CHECK(groups[0].sheets.size() + groups[1].sheets.size() == sheets.size());
+  double area = 0.0;
+  for (const StockGroup& group : groups) {
+    CHECK(group.sheets.back().name.ends_with("_of_" + std::to_string(group.sheets.size())));
+    area +=
+        group.utilisation * static_cast<double>(group.sheets.size()) * NestStock{}.width * NestStock{}.height;
+  }
+  CHECK(area == Approx(6 * 1.2 * 0.9 + 2 * 0.3 * 0.3));
+  CHECK(by_stock({}).empty());
 }
 
 TEST_CASE("rectangles that fill a sheet fill it") {

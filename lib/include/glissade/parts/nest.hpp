@@ -5,6 +5,7 @@
 #include "glissade/parts/shop_part.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,16 @@ struct NestedSheet {
 /// @throws InputError if a measure of the stock is out of its bound: stock_problems(); or with all parts that fit no sheet, at
 ///         "split.sheet": size, bound, what to try
 [[nodiscard]] std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock = {});
+
+/// Sheets of one material and thickness.
+struct StockGroup {
+  std::span<const NestedSheet> sheets;  ///< not empty; of the sheets given
+  double utilisation = 0.0;             ///< mean over the sheets
+};
+
+/// @param sheets  as nest() gives them: those of one stock follow each other; outlive what is returned
+/// @return one group a stock, in their order
+[[nodiscard]] std::vector<StockGroup> by_stock(std::span<const NestedSheet> sheets);
 
 /// Width of the columns that decide where pieces fall [m]; a sheet has 20 to 4000.
 inline constexpr double kNestColumn = 0.003;

@@ -297,13 +297,18 @@ void lay_group(std::vector<Piece>& pieces, const Workshop& workshop, const NestS
 }
 
 /// @return "nest_S235_4mm_1_of_2"
+std::string shown(double thickness) {
+  return rounded_text(core::kMillimetres * thickness, 6);
+}
+
+/// By what names say: no two sheets are one file, and pieces whose thicknesses differ by rounding lie on one stock.
+bool are_of_one_stock(const NestedSheet& sheet, const NestedSheet& other) {
+  return other.material == sheet.material && shown(other.thickness) == shown(sheet.thickness);
+}
+
 std::string name_of(const std::vector<NestedSheet>& sheets, std::size_t index) {
   const NestedSheet& sheet = sheets[index];
-  const auto shown = [](double thickness) { return rounded_text(core::kMillimetres * thickness, 6); };
-  // By what the name says: no two sheets are one file.
-  const auto alike = [&](const NestedSheet& other) {
-    return other.material == sheet.material && shown(other.thickness) == shown(sheet.thickness);
-  };
+  const auto alike = [&](const NestedSheet& other) { return are_of_one_stock(sheet, other); };
   const auto here = sheets.begin() + static_cast<std::ptrdiff_t>(index);
   const auto count = std::count_if(sheets.begin(), sheets.end(), alike);
   const auto number = std::count_if(sheets.begin(), here, alike) + 1;
@@ -375,6 +380,22 @@ std::vector<NestedSheet> nest(const Workshop& workshop, const NestStock& stock) 
   for (auto& [kind, pieces] : groups) lay_group(pieces, workshop, stock, column, sheets);
   for (std::size_t i = 0; i < sheets.size(); ++i) sheets[i].name = name_of(sheets, i);
   return sheets;
+}
+
+std::vector<StockGroup> by_stock(std::span<const NestedSheet> sheets) {
+  std::vector<StockGroup> groups;
+  while (!sheets.empty()) {
+    const auto next = std::find_if_not(sheets.begin(), sheets.end(), [&](const NestedSheet& sheet) {
+      return are_of_one_stock(sheets.front(), sheet);
+    });
+    const auto count = static_cast<std::size_t>(next - sheets.begin());
+    StockGroup group{sheets.first(count), 0.0};
+    for (const NestedSheet& sheet : group.sheets)
+      group.utilisation += sheet.utilisation / static_cast<double>(count);
+    groups.push_back(group);
+    sheets = sheets.subspan(count);
+  }
+  return groups;
 }
 
 }  // namespace glissade

@@ -279,26 +279,18 @@ bool is_whole_frame(const ShopPart& part) {
 
 /// Says of which stock less would be left over of frames in pieces.
 void note_left_over(WorkshopBuild& build) {
-  const std::vector<NestedSheet>& sheets = build.nests;
-  for (auto first = sheets.begin(); first != sheets.end();) {
-    const auto next = std::find_if(first, sheets.end(), [&](const NestedSheet& sheet) {
-      return sheet.material != first->material || sheet.thickness != first->thickness;
-    });
-    const auto count = static_cast<std::size_t>(next - first);
-    double used = 0.0;
-    for (auto sheet = first; sheet != next; ++sheet) used += sheet->utilisation / static_cast<double>(count);
-    const bool whole = std::any_of(first, next, [&](const NestedSheet& sheet) {
+  for (const StockGroup& group : by_stock(build.nests)) {
+    const NestedSheet& first = group.sheets.front();
+    const bool whole = std::any_of(group.sheets.begin(), group.sheets.end(), [&](const NestedSheet& sheet) {
       return std::any_of(sheet.pieces.begin(), sheet.pieces.end(), [&](const NestedPiece& piece) {
         return is_whole_frame(build.workshop.parts[piece.part]);
       });
     });
-    if (count >= kManySheets && used < kLittleUsed && whole) {
-      build.workshop.notes.push_back(
-          std::to_string(count) + " sheets of " + first->material + ", " + length_text(first->thickness) +
-          ", are " + rounded_text(100.0 * used, 2) +
-          " % used: less would be left over of frames in pieces, split: {frames: 3}.");
-    }
-    first = next;
+    if (group.sheets.size() < kManySheets || group.utilisation >= kLittleUsed || !whole) continue;
+    build.workshop.notes.push_back(
+        std::to_string(group.sheets.size()) + " sheets of " + first.material + ", " +
+        length_text(first.thickness) + ", are " + rounded_text(100.0 * group.utilisation, 2) +
+        " % used: less would be left over of frames in pieces, split: {frames: 3}.");
   }
 }
 
