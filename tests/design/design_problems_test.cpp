@@ -709,6 +709,25 @@ TEST_CASE("what the message of a mesh too coarse for its track says to try is fi
              Contains("tolerance: 0.5 mm is larger than the track, 0.3606 mm") && !Contains("Try: 0.5 mm"));
 }
 
+TEST_CASE("the default tolerance is asked for where a mesh is made alone, and told as the default") {
+  const auto short_track = [](const std::string& more) {
+    return problems_of(
+        "glissade: 1\ntrack: {start: {x: 0 mm, z: 0.2 mm}, finish: {x: 0.3 mm, z: 0 mm}}\n"
+        "body: {friction_angle: 10 deg}\n" +
+        more);
+  };
+  const std::string channel =
+      "cross_section: {kind: u-channel, width: 0.03 mm, wall_height: 0.02 mm, thickness: 0.002 mm}\n";
+  CHECK(short_track("") == "");
+  CHECK_THAT(short_track("mesh: {tolerance: 0.5 mm}"),
+             StartsWith("d.yaml:4:19: tolerance: 0.5 mm is larger than the track, 0.3606 mm"));
+  const std::string told = short_track(channel);
+  CHECK_THAT(told, Contains("tolerance: 0.5 mm, the default, is larger than the track, 0.3606 mm") &&
+                       Contains("Try: mesh: {tolerance: 0.0004 mm}"));
+  const std::size_t from = told.find("Try: ") + 5;
+  CHECK(short_track(channel + told.substr(from, told.find('}', from) + 1 - from)) == "");
+}
+
 TEST_CASE(
     "a mesh that would have more triangles than Glissade makes is refused on reading, by the sweep's own "
     "bound") {

@@ -84,14 +84,18 @@ void check_mesh(const Design& design, Collected& findings) {
             "It is how far the mesh may depart from the exact shape.", "0.5 mm"});
     return;
   }
+  const bool given = design.locations.contains("mesh.tolerance");
+  if (!given && !design.cross_section) return;  // the default of a mesh that nobody asked for
   const double distance = norm(design.track.finish - design.track.start);
   if (distance > kLongestTrack) return;  // that is wrong itself
   if (distance > 0.0 && tolerance > distance) {
     constexpr double kFine = 1e-3;  // of the track: its shape is there, and the mesh small
-    const auto [given, whole] = texts_apart(tolerance, distance, &length_text);
-    report(findings, {"mesh.tolerance", "track"},
-           {"", "tolerance: " + given + " is larger than the track, " + whole,
-            "It is how far the mesh may depart from the exact shape.", length_text(kFine * distance, 1)});
+    const auto [coarse, whole] = texts_apart(tolerance, distance, &length_text);
+    report(
+        findings, {"mesh.tolerance", "track"},
+        {"", "tolerance: " + coarse + (given ? "" : ", the default,") + " is larger than the track, " + whole,
+         "It is how far the mesh may depart from the exact shape.",
+         (given ? "" : "mesh: {tolerance: ") + length_text(kFine * distance, 1) + (given ? "" : "}")});
   }
   check_mesh_size(design, findings);
 }
