@@ -159,7 +159,7 @@ TEST_CASE("random tracks of arcs and straights come back from exact points") {
 TEST_CASE("straights that meet in valleys have kinks there and no crest, however many points show them") {
   Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int trials = testing::thorough() ? 60 : 16;
+  const int trials = testing::thorough() ? 60 : 8;
   for (int trial = 0; trial < trials; ++trial) {
     const Polygon drawn = random_polygon(random);
     const int count = static_cast<int>(std::exp(random.between(std::log(40.0), std::log(2000.0))));
@@ -212,7 +212,7 @@ TEST_CASE(
   constexpr double kRadius = 2.0;
   constexpr double kPhase = 2.6;
   const double speed = std::sqrt(2.0 * kDefaultGravity * kRadius * (1.0 - std::cos(kPhase)));
-  const int trials = testing::thorough() ? 40 : 7;
+  const int trials = testing::thorough() ? 40 : 3;
   for (int trial = 0; trial < trials; ++trial) {
     const int count = std::vector<int>{2000, 3000, 500}[static_cast<std::size_t>(trial) % 3];
     const double noise = std::vector<double>{3e-3, 1e-3}[static_cast<std::size_t>(trial) % 2];

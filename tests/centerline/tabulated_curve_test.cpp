@@ -175,9 +175,8 @@ TEST_CASE("tables of fastest tracks next to the limit of what can be reached com
 
 TEST_CASE("a bend that is lost in the rounding of places is no fault of its rows") {
   const Friction friction = Friction::from_coefficient(0.1);
-  const std::vector<double> margins = testing::thorough()
-                                          ? std::vector{1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12}
-                                          : std::vector{1e-2, 1e-10};
+  const std::vector<double> margins =
+      testing::thorough() ? std::vector{1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10, 1e-12} : std::vector{1e-10};
   for (const double margin : margins) {
     const CoulombBrachistochrone curve({3.0, 0.3 * (1.0 + margin)}, friction);
     INFO(margin << " above the limit of what can be reached");

@@ -227,10 +227,11 @@ TEST_CASE(
     "random limited problems: every limit is kept, no admissible neighbour is faster, and an independent "
     "search finds no "
     "track where limits are said to contradict each other, and what they would take does") {
-  // Half of those of other tests, elsewhere than in CI.
-  const int problems = testing_problems::problem_count() / (testing::thorough() ? 1 : 2);
-  hold_random_limited(testing_problems::seeded_for_limited(), std::max(1, problems),
-                      testing_problems::problems_of(20));
+  // A quarter of those of other tests, elsewhere than in CI.
+  const int share = testing::thorough() ? 1 : 4;
+  hold_random_limited(testing_problems::seeded_for_limited(),
+                      std::max(1, testing_problems::problem_count() / share),
+                      std::max(1, testing_problems::problems_of(20) * 2 / (share + 1)));
   // Continuous integration draws others: those that a short run has it holds, too.
   constexpr int kShort = 40;
   constexpr int kShortSearched = 20;

@@ -204,7 +204,7 @@ std::optional<double> lowest_of_grid(const BoundedHill& hill, int steps) {
 TEST_CASE("the lowest letters are found where many within the bounds cannot be") {
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
-  const int hills = testing::thorough() ? 24 : 8;
+  const int hills = testing::thorough() ? 24 : 5;
   const int steps = testing::thorough() ? 5 : 3;
   int found = 0;
   for (int i = 0; i < hills; ++i) {
@@ -518,7 +518,7 @@ TEST_CASE(
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   const Design design = garmisch_design();
-  for (int i = 0; i < (testing::thorough() ? 20 : 4); ++i) {
+  for (int i = 0; i < (testing::thorough() ? 20 : 2); ++i) {
     Design changed = design;
     changed.body.friction = Friction::from_coefficient(random.between(0.0, 0.1));
     changed.body.head_wind = random.between(0.0, 5.0);
@@ -642,8 +642,9 @@ TEST_CASE("shapes that bend where gates lie are told") {
 TEST_CASE("every goal is met from the height or the speed of the certificate, and no worse than it") {
   const Design design = garmisch_design();
   for (const RedesignGoal goal : redesign_goals()) {
-    // Of the two that are looked for between bounds one, elsewhere than in CI.
-    if (goal == RedesignGoal::least_curvature_rate && !testing::thorough()) continue;
+    // Of those that take seconds, looked for between bounds, none elsewhere than in CI.
+    const bool is_slow = goal == RedesignGoal::least_curvature_rate || goal == RedesignGoal::least_load;
+    if (is_slow && !testing::thorough()) continue;
     RedesignOptions options;
     options.goal = goal;
     const bool is_known = goal == RedesignGoal::least_drop;
@@ -695,8 +696,8 @@ TEST_CASE("a redesign that runs out of time says so, and is no worse than what i
   const Design design = garmisch_design();
   for (const RedesignGoal goal : {RedesignGoal::least_drop, RedesignGoal::least_length,
                                   RedesignGoal::least_load, RedesignGoal::least_curvature_rate}) {
-    std::vector<double> budgets = {1e-6, 1e-3, 0.01, 0.03};
-    if (testing::thorough()) budgets.insert(budgets.end(), {0.27, 0.3, 0.34});
+    std::vector<double> budgets = {1e-6, 0.03};
+    if (testing::thorough()) budgets.insert(budgets.end(), {1e-3, 0.01, 0.27, 0.3, 0.34});
     for (const double budget : budgets) {
       INFO(word(goal) << ", " << budget << " s");
       RedesignOptions options;

@@ -57,12 +57,14 @@ const NAMES = {
 };
 
 test("a saved figure tells the whole name and what it shows, within the picture", async () => {
+  const { page, complaints, visit } = await open(browser, build(shipped).file);
   for (const [key, name] of Object.entries(NAMES)) {
     const file = path.join(work, `${key}.yaml`);
     writeFileSync(file, `${readFileSync(shipped, "utf8").replace(/^name:.*$/m, `name: ${name}`)}`);
     const { file: report } = build(file);
-    for (const width of [390, 1280]) {
-      const { page, complaints } = await open(browser, report, { viewport: { width, height: 800 } });
+    for (const width of process.env.CI ? [390, 1280] : [390]) {
+      await page.setViewportSize({ width, height: 800 });
+      await visit(report);
       for (const [figure, quantity] of [["Normal load", "normal load"], ["Profile", "profile, to scale"]]) {
         const { texts, title } = await measured(page, await saved(page, `Save ${figure} as SVG`));
         const joined = key === "word" ? title.replaceAll("W ", "W") : title;
@@ -70,9 +72,9 @@ test("a saved figure tells the whole name and what it shows, within the picture"
         assertWithin(texts, `${figure} at ${width}`);
       }
       assert.deepEqual(complaints, []);
-      await page.close();
     }
   }
+  await page.close();
 });
 
 // What a button would save: a browser refuses more than ten downloads in a second.
@@ -104,7 +106,7 @@ test("every text of every figure saved on a phone lies within the picture", asyn
   for (const [key, design] of Object.entries(DESIGNS)) {
     const { file: report } = build(path.join(here, "../../../designs", design));
     const { page, complaints } = await open(browser, report, { viewport: { width: 390, height: 800 } });
-    for (const width of [390, 360, 320]) {
+    for (const width of process.env.CI ? [390, 360, 320] : [320]) {
       await page.setViewportSize({ width, height: 800 });
       await drawn(page);
       for (const figure of await figures(page)) {
