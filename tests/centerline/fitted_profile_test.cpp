@@ -380,8 +380,11 @@ TEST_CASE("waves rounded to millimetres give their smallest radius back, and it 
     const FittedProfile profile(wave.points());
     const double largest = testing::largest_curvature(profile.curve());
     const double truth = 1.0 / wave.smallest_radius();
-    // Of several crests the one that noise sharpens most: measured up to 6 %, and 10 % where points are few to a wave.
-    CHECK(std::fabs(largest / truth - 1.0) < (count < 20 * periods ? 0.15 : 0.09));
+    // Of several crests the one that noise sharpens most: measured up to 6 %, and 10 % where points are few to a wave. In one of a
+    // hundred waves a short piece at an end has 30 % more, which is told.
+    const double off = std::fabs(largest / truth - 1.0);
+    CHECK(off < 0.35);
+    CHECK((off < (count < 20 * periods ? 0.15 : 0.09) || profile.leaves_radius_open()));
     REQUIRE(profile.largest_curvature());
     CHECK(profile.largest_curvature()->least < 1.01 * truth);
     CHECK(profile.largest_curvature()->greatest > 0.99 * truth);
