@@ -238,7 +238,8 @@ TEST_CASE(
                                      kDeviations * *fit.friction_uncertainty &&
                                  std::fabs(fit.drag - truth.drag) <= kDeviations * *fit.drag_uncertainty);
     }
-    CHECK(at_bound > 0);
+    // Of none half of the fits end at none; elsewhere a draw may have no such fit.
+    if (truth.friction == 0.0) CHECK(at_bound > 0);
     CHECK(within >= at_bound - 1 - at_bound / 10);
   }
 }
