@@ -5,16 +5,21 @@
 #include "glissade/centerline/coulomb_brachistochrone.hpp"
 #include "glissade/core/error.hpp"
 #include "glissade/core/number_text.hpp"
+#include "glissade/core/quantity.hpp"
 #include "glissade/parts/plates.hpp"
 
 #include "parts/chute_plates.hpp"
 #include "support/catch.hpp"
 #include "support/random.hpp"
 #include "support/shortfalls.hpp"
+#include "support/thorough.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace fittings_test {
@@ -36,6 +41,26 @@ PlateOptions with_everything() {
   options.supports.emplace();
   options.supports->ground = {{0.0, -6.2}};
   return options;
+}
+
+/// @return the place along the track nearest to a point, to 0.1 mm
+double nearest_to(const WorkshopBuild& build, Vec3 point) {
+  const ArcSpline& track = *build.master.spline;
+  double nearest = 0.0;
+  double least = HUGE_VAL;
+  const auto look = [&](double from, double to) {
+    constexpr int kSteps = 400;
+    for (int k = 0; k <= kSteps; ++k) {
+      const double s = from + (to - from) * k / kSteps;
+      const CenterlinePoint here = track.at(s);
+      const double off = std::hypot(here.x - point.x, -here.drop - point.z);
+      if (off < least) std::tie(least, nearest) = std::pair(off, s);
+    }
+  };
+  look(0.0, track.length());
+  const double about = nearest;
+  look(std::max(0.0, about - 0.01 * track.length()), std::min(track.length(), about + 0.01 * track.length()));
+  return nearest;
 }
 
 }  // namespace
@@ -163,20 +188,90 @@ TEST_CASE("lugs: plumb above the centre of gravity of what they lift, where the 
   // Of the last unit, which is the flattest, by all parts that lie on it.
   Vec3 moment;
   double mass = 0.0;
-  const double from = build.master.spline->at(build.joints[build.joints.size() - 2]).x;
+  const double from = build.joints[build.joints.size() - 2];
   for (const ShopPart& part : build.workshop.parts) {
     if (part.name.starts_with("lug")) continue;
     for (const Frame& place : part.places) {
-      const Vec3 shift = place.origin - part.places.front().origin;
-      const Vec3 centre = part.centre_of_gravity + shift;  // equal parts lie parallel here
-      if (centre.x < from) continue;
+      const Frame& first = part.places.front();
+      const Vec3 away = part.centre_of_gravity - first.origin;
+      const Vec3 centre = place.to_space({dot(away, first.x), dot(away, first.y), dot(away, first.z)});
+      if (nearest_to(build, centre) < from) continue;
       mass += part.mass;
       moment = moment + part.mass * centre;
     }
   }
   const Vec3 centre = (1.0 / mass) * moment;
-  CHECK(std::fabs(lugs.back()->centre_of_gravity.x - centre.x) < 0.12);
+  // It hangs from their eyes, which stand square to the track above the walls.
+  const Circle eye = lugs.back()->pattern->region.holes.front();
+  const Vec3 hung = lugs.back()->places.front().to_space({eye.centre.x, eye.centre.y, 0.0});
+  CAPTURE(mass, centre.x, hung.x);
+  CHECK(std::fabs(hung.x - centre.x) < 2e-3);
   for (const ShopPart* lug : lugs) CHECK(lug->quantity() == 2);
+}
+
+namespace {
+
+double metres(const std::string& text) {
+  return parse_quantity(text, Dimension::length, "length");
+}
+
+/// Where stiffeners stand along the track, by the middles of their thickness.
+std::vector<double> stiffeners_along(const WorkshopBuild& build) {
+  std::vector<double> all;
+  for (const ShopPart& part : build.workshop.parts) {
+    if (!part.name.starts_with("stiffener")) continue;
+    for (const Frame& place : part.places)
+      all.push_back(nearest_to(build, place.origin + 0.5 * part.thickness * place.z));
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "stiffeners are no farther apart than asked for, wherever openings are, or the widest gap is told") {
+  testing::Random random = testing::seeded_random();
+  INFO("GLISSADE_SEED=" << random.seed());
+  int wide = 0;
+  for (int i = 0; i < (testing::thorough() ? 24 : 4); ++i) {
+    PlateOptions options;
+    options.split.longest = random.between(1.0, 3.0);
+    options.stiffeners.emplace();
+    options.stiffeners->spacing = random.between(0.2, 0.9);
+    options.inspection = {{random.between(1.0, 5.5), random.between(0.2, 0.8), 0.1, 8}};
+    INFO(i << ": units of " << *options.split.longest << " m, spacing " << options.stiffeners->spacing
+           << " m, an opening of " << options.inspection.front().length << " m at "
+           << options.inspection.front().at << " m");
+    std::optional<WorkshopBuild> build;
+    try {
+      build = plates(chute(), options);
+    } catch (const InputError&) {
+      continue;  // a lid across a joint
+    }
+    constexpr double kStep = 1e-4;  // of the places that are looked at
+    std::vector<double> ends = stiffeners_along(*build);
+    for (std::size_t k = 1; k < ends.size(); ++k) CHECK(ends[k] - ends[k - 1] >= 0.06 - kStep);
+    ends.insert(ends.end(), build->joints.begin(), build->joints.end());
+    std::sort(ends.begin(), ends.end());
+    double widest = 0.0;
+    for (std::size_t k = 1; k < ends.size(); ++k) widest = std::max(widest, ends[k] - ends[k - 1]);
+    const std::string told = shortfall_of(build->workshop, "spacing: stiffeners");
+    CAPTURE(widest, told);
+    CHECK(told.empty() == (widest <= options.stiffeners->spacing + kStep));
+    if (told.empty()) continue;
+    ++wide;
+    const std::string kBegins = "stiffeners.spacing|spacing: stiffeners and ends of units are ";
+    REQUIRE(told.starts_with(kBegins));
+    const double apart = metres(told.substr(kBegins.size(), told.find(" apart, for ") - kBegins.size()));
+    CHECK(apart == Approx(widest).margin(1e-3));
+    // What it says to try does.
+    const std::size_t from = told.find("|spacing: ", 60) + 10;
+    options.stiffeners->spacing = metres(told.substr(from, told.find(',', from) - from));
+    CHECK(shortfall_of(plates(chute(), options).workshop, "spacing: stiffeners").empty());
+  }
+  CAPTURE(wide);
+  if (testing::thorough()) CHECK(wide > 0);
 }
 
 TEST_CASE("lugs and stiffeners of a channel that find no place are told with the units and places, and why") {
@@ -203,14 +298,14 @@ TEST_CASE("lugs and stiffeners of a channel that find no place are told with the
   options.stiffeners->spacing = 0.4;
   options.stiffeners->thickness = 30e-3;
   const WorkshopBuild bent = plates(track, options);
-  const std::string stiffeners = shortfall_of(bent.workshop, "stiffeners: ");
+  const std::string stiffeners = shortfall_of(bent.workshop, "spacing: stiffeners");
   INFO(stiffeners);
-  CHECK(stiffeners.find(" no place, at about ") != std::string::npos);
-  CHECK(stiffeners.find(
-            " along the track|Over their thickness of 30 mm plates bend there by more than the gap of ") !=
+  CHECK(stiffeners.starts_with("stiffeners.spacing|spacing: stiffeners and ends of units are "));
+  CHECK(stiffeners.find(" apart, for 400 mm, along the track from ") != std::string::npos);
+  CHECK(stiffeners.find("|Over their thickness of 30 mm plates bend there by more than the gap of ") !=
         std::string::npos);
   CHECK(stiffeners.ends_with(
-      "|another spacing than 400 mm, a smaller thickness, a larger flanges.gap, or no stiffeners"));
+      ", a smaller thickness, a larger flanges.gap, openings elsewhere, or no stiffeners"));
   options.stiffeners->thickness = 6e-3;
   CHECK(shortfalls_of(plates(track, options).workshop).empty());
 }

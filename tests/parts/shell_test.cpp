@@ -111,6 +111,52 @@ TEST_CASE("shells: stiffeners, lugs and trestles stand on every section, as stri
   }
 }
 
+TEST_CASE("shells: bolts of frames lie below thick rims with their washers, where these have room") {
+  const Angle lean = Angle::from_degrees(25.0);
+  const std::vector<NamedSection> open = {{"u-channel", section::UChannel{WidthLaw(0.4), 0.25, 4e-3}},
+                                          {"trapezoid", section::Trapezoid{WidthLaw(0.4), 0.25, lean, 4e-3}},
+                                          {"v-channel", v_channel()},
+                                          {"half-pipe", section::HalfPipe{0.4, 0.05, 4e-3}}};
+  constexpr double kWasher = 20e-3;  // of M10, ISO 7089
+  for (const auto& [name, measures] : open) {
+    for (const RoundMake round : {RoundMake::staves, RoundMake::mitred}) {
+      if (round == RoundMake::mitred && name != "half-pipe") continue;
+      for (const double thickness : {5e-3, 20e-3}) {
+        INFO(name << (round == RoundMake::mitred ? ", mitred" : "") << ", " << thickness);
+        PlateOptions options;
+        options.round = round;
+        options.stave_tolerance = 5e-3;
+        options.rim = RimOptions{40e-3, thickness};
+        const WorkshopBuild build = plates_of(chute(), measures, options);
+        std::size_t frames = 0;
+        for (const ShopPart* frame :
+             named(build, round == RoundMake::mitred ? "trough_flange" : "end_frame")) {
+          const PlaneRegion& region = frame->pattern->region;
+          double highest = -HUGE_VAL;
+          for (const Circle& hole : region.holes) highest = std::max(highest, hole.centre.y);
+          CHECK(highest <= bounds(region.outline).high.y - thickness - 0.5 * kWasher);
+          frames += frame->quantity();
+        }
+        CHECK(frames >= 2);
+      }
+    }
+  }
+  PlateOptions options;
+  options.rim = RimOptions{40e-3, 30e-3};
+  options.flanges.bolt = 12;
+  options.flanges.slotted = FlangeSide::downstream;
+  options.flanges.width = 60e-3;
+  const ChannelMeasures low{0.4, 0.06, 4e-3};
+  const std::string told = refusal(options, low);
+  INFO(told);
+  CHECK(told.starts_with(
+      "flanges.bolt|bolt: M12 finds no place beside walls of 60 mm|Two slots, as wide as holes of "));
+  CHECK(told.find(" apart there, below the rim of 30 mm.|a thinner rim, a smaller bolt, a shorter slot, or "
+                  "slotted: none") != std::string::npos);
+  options.rim->thickness = 5e-3;
+  CHECK(refusal(options, low).empty());
+}
+
 TEST_CASE("shells: nothing stands nearer to the section than the gap, and stiffeners keep it all along") {
   int number = 0;
   for (const auto& [name, measures] : sections()) {

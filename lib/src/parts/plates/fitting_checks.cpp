@@ -4,6 +4,7 @@
 
 #include "parts/plates/fittings.hpp"
 #include "parts/plates/frame_holes.hpp"
+#include "parts/plates/stiffener_row.hpp"
 #include "parts/shop/bolts.hpp"
 
 #include <algorithm>
@@ -230,10 +231,10 @@ void object_to_supports(const PlateOptions& options, Refusals& refusals) {
 
 void object_to_stiffeners(const PlateOptions& options, double lap, Refusals& refusals) {
   const StiffenerOptions& stiffeners = *options.stiffeners;
-  if (!(stiffeners.spacing >= 10.0 * stiffeners.thickness)) {
+  if (!(stiffeners.spacing >= least_apart(stiffeners))) {
     refusals.add("stiffeners.spacing",
                  "spacing: " + length_text(stiffeners.spacing) + " leaves no room to weld them",
-                 "They are at least ten thicknesses apart, " + length_text(10.0 * stiffeners.thickness) + ".",
+                 "They are at least ten thicknesses apart, " + length_text(least_apart(stiffeners)) + ".",
                  "spacing: 800 mm");
   }
   refusals.positive(stiffeners.width, "stiffeners.width", "width");

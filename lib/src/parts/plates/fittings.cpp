@@ -15,6 +15,7 @@
 #include "parts/plates/seams.hpp"
 #include "parts/plates/shell.hpp"
 #include "parts/plates/shortfalls.hpp"
+#include "parts/plates/stiffener_row.hpp"
 #include "parts/shop/bolts.hpp"
 #include "parts/shop/workshop_list.hpp"
 
@@ -27,9 +28,10 @@
 namespace glissade::parts {
 namespace {
 
-constexpr double kLugHalf = 40e-3;  // of a lug, along the track [m]
-constexpr double kLugHigh = 60e-3;  // above the wall's top [m]
-constexpr double kLugLow = 60e-3;   // below it, on a wall without a rim [m]
+constexpr double kLugHalf = 40e-3;            // of a lug, along the track [m]
+constexpr double kLugHigh = 60e-3;            // above the wall's top [m]
+constexpr double kLugLow = 60e-3;             // below it, on a wall without a rim [m]
+constexpr double kEyeHigh = 0.55 * kLugHigh;  // of the middle of its eye above the wall's top [m]
 
 std::vector<Span> spans_of(const std::vector<Unit>& units) {
   std::vector<Span> spans;
@@ -327,19 +329,49 @@ void add_rims(const Fitting& fitting) {
 
 namespace {
 
-/// The free place nearest to `about`; below a bent floor one where a flat touches the track, since elsewhere it lies off it.
-std::optional<double> stiffener_place(const Fitting& fitting, const Unit& unit, double about, double half) {
-  const Span room = between_frames(fitting.job, unit.span);
-  if (!unit.face.facets) return fitting.below.free_place(about, half, room);
-  std::vector<double> touches = unit.face.facets->touches;
-  std::sort(touches.begin(), touches.end(), [&](double a, double b) {
-    return std::pair(std::fabs(a - about), a) < std::pair(std::fabs(b - about), b);
-  });
-  for (const double touch : touches) {
-    const auto place = fitting.below.free_place(touch, half, room);
-    if (place && *place == touch) return place;
+constexpr double kOffStiffener = 15e-3;  // of stiffeners from what else stands there, for welding [m]
+
+/// The ends of a unit's lids, seen from the side: flat, they keep their length up the wall, where a hollow leaves what is square to it
+/// less room.
+std::vector<StandingPlate> ends_of_lids(const Job& job, const Span& unit) {
+  std::vector<StandingPlate> ends;
+  for (const InspectionOptions& opening : job.options.inspection) {
+    const double reach = 0.5 * opening.length + lid_lap(opening, job.options.shop);
+    if (opening.at + reach <= unit.from || opening.at - reach >= unit.to) continue;
+    for (const double sense : {-1.0, 1.0}) {
+      TrackFrame end = frame_at(job.track, opening.at);
+      end.at = end.at + sense * reach * end.along;
+      ends.push_back({end, kOffStiffener, lid_heights(job, opening)});
+    }
   }
-  return std::nullopt;
+  return ends;
+}
+
+/// Places below a unit where stiffeners may stand; below a bent floor those where a flat touches the track, since elsewhere it lies
+/// off it.
+StiffenerSeats seats_below(const Fitting& fitting, const Unit& unit) {
+  const Job& job = fitting.job;
+  const double thickness = job.options.stiffeners->thickness;
+  const Span room = between_frames(job, unit.span);
+  StiffenerSeats seats;
+  if (unit.face.facets) {
+    seats.places = unit.face.facets->touches;
+    seats.anywhere = false;
+  } else {
+    for (int k = 0; k <= kSeats; ++k) seats.places.push_back(seat_place(room, k));
+  }
+  // Where the floor bends within the plate's thickness, the gap would close.
+  seats.is_free = [&fitting, room, thickness, lids = ends_of_lids(job, unit.span)](double s) {
+    const Job& of = fitting.job;
+    const double out = of.options.flanges.gap + of.options.stiffeners->width;
+    const Span heights{-floor_depth(of) - of.channel.thickness - out, of.channel.wall_height};
+    return fitting.below.is_free(s, 0.5 * thickness + kOffStiffener, room) &&
+           all_apart({frame_at(of.track, s), 0.5 * thickness, heights}, lids) &&
+           std::fabs(of.track.at(s).curvature) * thickness * thickness <= of.options.flanges.gap;
+  };
+  const double apart = least_apart(*job.options.stiffeners);
+  seats.beside = [apart](double a, double b) { return b - a >= apart; };
+  return seats;
 }
 
 }  // namespace
@@ -356,26 +388,18 @@ void add_channel_stiffeners(const Fitting& fitting) {
   pattern.region = frame_region(job, stiffener.width, top, true);
   part.body = Prism{pattern.region, stiffener.thickness};
   part.pattern = std::move(pattern);
-  StiffenerPlaces places;
+  WideGaps gaps;
   for (const Unit& unit : fitting.units) {
-    const double room = unit.span.to - unit.span.from;
-    const double count = std::ceil(room / stiffener.spacing - 1e-9);
-    for (double k = 1.0; k < count; k += 1.0) {
-      const double about = unit.span.from + room * k / count;
-      const double half = 0.5 * stiffener.thickness + 15e-3;
-      places.ask(about);
-      const auto at = stiffener_place(fitting, unit, about, half);
-      // Where the floor bends within the plate's thickness, the gap would close.
-      if (!at || std::fabs(job.track.at(*at).curvature) * stiffener.thickness * stiffener.thickness > gap)
-        continue;
-      Frame place = frame_place(job, *at, true);
+    const std::vector<double> row = stiffener_row(unit.span, stiffener.spacing, seats_below(fitting, unit));
+    gaps.add(unit.span, row, stiffener.spacing);
+    for (const double at : row) {
+      Frame place = frame_place(job, at, true);
       place.origin = place.origin - 0.5 * stiffener.thickness * place.z;
       part.places.push_back(place);
-      fitting.below.add(*at - 0.5 * stiffener.thickness, *at + 0.5 * stiffener.thickness);
-      places.found();
+      fitting.below.add(at - 0.5 * stiffener.thickness, at + 0.5 * stiffener.thickness);
     }
   }
-  places.tell_missing(job.options, fitting.workshop);
+  gaps.tell(job.options, fitting.workshop);
   if (part.places.empty()) return;
   weigh(part);
   add_in_pieces(part, frame_line(job, stiffener.width, top), false, job.options, kFittingColour,
@@ -645,24 +669,27 @@ bool lug_keeps_off(const Job& job, const Span& unit, double s, const Span& heigh
   return true;
 }
 
-/// The free place at which the wall's top stands plumb above a point, within a span of a unit; the nearest where it does so
+/// How far the eyes of lugs at a place are from plumb above a point, along the run [m].
+double off_plumb(const Job& job, double s, Vec3 centre) {
+  const TrackFrame frame = frame_at(job.track, s);
+  const double x = dot(centre - in_space(job.placement, {}), along(job.placement));
+  return std::fabs(frame.at.x + (job.channel.wall_height + kEyeHigh) * frame.up.x - x);
+}
+
+/// The free place at which the eyes of lugs stand plumb above a point, within a span of a unit; the nearest where they do so
 /// nowhere.
 /// @param heights  of a lug
 std::optional<double> above(const Fitting& fitting, Vec3 centre, const Span& within, const Span& unit,
                             const Span& heights) {
   const Job& job = fitting.job;
-  const Vec3 run = along(job.placement);
-  const Vec3 start = in_space(job.placement, {});
-  const double x = dot(centre - start, run);
   // On rims lugs stand beside whatever ends below them.
   const bool beside = job.options.rim.has_value();
   std::optional<double> best;
   double least = std::numeric_limits<double>::infinity();
-  constexpr int kPlaces = 400;
+  constexpr int kPlaces = 2000;
   for (int k = 0; k <= kPlaces; ++k) {
     const double s = within.from + (within.to - within.from) * k / kPlaces;
-    const TrackFrame frame = frame_at(job.track, s);
-    const double miss = std::fabs(frame.at.x + job.channel.wall_height * frame.up.x - x);
+    const double miss = off_plumb(job, s, centre);
     constexpr double kAside = 10e-3;  // of a lug from a stiffener [m]
     if (miss >= least || !(beside || fitting.below.is_free(s, kLugHalf + kAside, within))) continue;
     if (!lug_keeps_off(job, unit, s, heights)) continue;
@@ -700,9 +727,8 @@ void add_channel_lugs(const Fitting& fitting) {
     // Where the top folds, no lug follows it.
     const auto outline = band(job.track, {at - kLugHalf, at + kLugHalf}, low, top + kLugHigh);
     const TrackFrame frame = frame_at(job.track, at);
-    PlaneRegion region{outline.value_or(ArcPath()),
-                       {},
-                       {{frame.at + (top + 0.55 * kLugHigh) * frame.up, 0.5 * lifting.hole}}};
+    PlaneRegion region{
+        outline.value_or(ArcPath()), {}, {{frame.at + (top + kEyeHigh) * frame.up, 0.5 * lifting.hole}}};
     if (!outline || !faults_of(region).empty()) {
       without.no_room(i, masses[i].mass);
       continue;
@@ -713,9 +739,7 @@ void add_channel_lugs(const Fitting& fitting) {
     pattern.region = std::get<Prism>(part.body).region;
     part.pattern = std::move(pattern);
     add_part(fitting.workshop, part, kFittingColour);
-    const double off = std::fabs(dot(centre - in_space(job.placement, {}), along(job.placement)) -
-                                 (frame.at.x + top * frame.up.x));
-    note_lugs(i, masses[i].mass, at, off, fitting.workshop);
+    note_lugs(i, masses[i].mass, at, off_plumb(job, at, centre), fitting.workshop);
   }
   without.tell(2.0 * kLugHalf, "The tops of the walls fold over where they would stand.", fitting.workshop);
 }

@@ -4,6 +4,8 @@
 #include "glissade/core/number_text.hpp"
 #include "glissade/core/slot.hpp"
 
+#include "parts/shop/bolts.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -137,6 +139,17 @@ double slot_reach(const FlangeOptions& flange) {
 
 double below_top(const FlangeOptions& flange) {
   return kAtTop * widest_hole(flange) + slot_reach(flange);
+}
+
+double bolts_below_rim(const PlateOptions& options) {
+  constexpr double kOffRim = 1e-3;  // taste: of washers from its underside [m]
+  const FlangeOptions& flange = options.flanges;
+  // Before an angle's other leg a rim ends farther off than heads and nuts reach.
+  if (!options.rim || !flange.wanted || flange.section == FlangeSection::angle) return 0.0;
+  const Bolt& bolt = bolt_of(flange.bolt);
+  const double half = 0.5 * (flange.slotted ? bolt.large_washer : bolt.washer) + kOffRim;
+  if (options.rim->width < flange.gap + 0.5 * flange.width - half) return 0.0;
+  return options.rim->thickness + half + slot_reach(flange);
 }
 
 std::string frame_name(const std::string& name, const FlangeOptions& flange, FlangeSide side) {

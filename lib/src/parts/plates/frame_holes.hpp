@@ -23,8 +23,11 @@ namespace glissade::parts {
 /// @return from the middle of a slot to that of its ends; 0 if no frame is slotted [m]
 [[nodiscard]] double slot_reach(const FlangeOptions& flange);
 
-/// @return the least distance of the uppermost holes' middles below the top of a frame [m]
+/// @return the least distance of the uppermost holes' middles below the top of a frame, for its edge [m]
 [[nodiscard]] double below_top(const FlangeOptions& flange);
+/// @return the same for a rim, which ends before flat frames with its top level with theirs: heads, nuts and washers lie below it; 0
+///         where there is none, or none before them [m]
+[[nodiscard]] double bolts_below_rim(const PlateOptions& options);
 
 /// @return the name of the frame on a side of a joint: "end_frame", "end_frame_loose", "end_frame_slotted"
 [[nodiscard]] std::string frame_name(const std::string& name, const FlangeOptions& flange, FlangeSide side);

@@ -135,15 +135,19 @@ void object_to_flanges(const ChannelMeasures& channel, const PlateOptions& optio
     add_angle_seat_problems(channel_seat(channel, options), options, objections.issues());
     return;
   }
-  const double column =
-      channel.wall_height - below_top(flange) + channel.thickness + flange.gap + 0.5 * flange.width;
+  const double rim = bolts_below_rim(options);
+  const bool for_rim = rim > below_top(flange);
+  const double column = channel.wall_height - std::max(below_top(flange), rim) + channel.thickness +
+                        flange.gap + 0.5 * flange.width;
   if (column < hole_pitch_diameters(options.shop) * hole + 2.0 * slot_reach(flange)) {
-    objections.add("flanges.bolt",
-                   "bolt: " + bolt + " finds no place beside walls of " + length_text(channel.wall_height),
-                   "Two " + std::string(flange.slotted ? "slots, as wide as holes" : "holes") + " of " +
-                       length_text(hole) + (flange.slotted ? "," : "") + " are " + length_text(column) +
-                       " apart there.",
-                   flange.slotted ? "a smaller bolt, a shorter slot, or slotted: none" : "a smaller bolt");
+    objections.add(
+        "flanges.bolt",
+        "bolt: " + bolt + " finds no place beside walls of " + length_text(channel.wall_height),
+        "Two " + std::string(flange.slotted ? "slots, as wide as holes" : "holes") + " of " +
+            length_text(hole) + (flange.slotted ? "," : "") + " are " + length_text(column) + " apart there" +
+            (for_rim ? ", below the rim of " + length_text(options.rim->thickness) : "") + ".",
+        std::string(for_rim ? "a thinner rim, " : "") +
+            (flange.slotted ? "a smaller bolt, a shorter slot, or slotted: none" : "a smaller bolt"));
   }
 }
 

@@ -290,11 +290,13 @@ ShopPart frame_plate(const Job& job, FlangeSide of_joint, const std::vector<Fram
 
   const double side = inner + 0.5 * flange.width;
   const double level = low - 0.5 * flange.width;
+  const double rim = bolts_below_rim(job.options);
   const auto bolts = [&](const FlangeOptions& with) {
     std::vector<Vec2> all = evenly({-side, level}, {side, level}, with.pitch);
     if (!walls) return all;
     for (const double x : {-side, side}) {
-      const std::vector<Vec2> column = evenly({x, level}, {x, top - below_top(with)}, with.pitch);
+      const std::vector<Vec2> column =
+          evenly({x, level}, {x, top - std::max(below_top(with), rim)}, with.pitch);
       all.insert(all.end(), column.begin() + 1, column.end());
     }
     return all;

@@ -59,18 +59,24 @@ bool keeps_straight(const Shell& shell, double s, double half, double gap) {
   return true;
 }
 
+bool is_seat(const Shell& shell, const SeatNeed& need, const Span& within, double s) {
+  constexpr double kRounding = 1.5e-5;  // of parts that share a number [m]
+  return shell.taken.is_free(s, need.taken, within) &&
+         keeps_straight(shell, s, need.straight, shell.options.flanges.gap + kRounding);
+}
+
+double seat_place(const Span& within, int k) {
+  return within.from + (within.to - within.from) * k / kSeats;
+}
+
 std::optional<double> best_seat(const Shell& shell, const SeatNeed& need, const Span& within,
                                 const std::function<double(double)>& cost) {
-  constexpr int kPlaces = 800;
-  constexpr double kRounding = 1.5e-5;  // of parts that share a number [m]
-  const double gap = shell.options.flanges.gap + kRounding;
   std::optional<double> best;
   double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k <= kPlaces; ++k) {
-    const double s = within.from + (within.to - within.from) * k / kPlaces;
+  for (int k = 0; k <= kSeats; ++k) {
+    const double s = seat_place(within, k);
     const double price = cost(s);
-    if (!(price < least) || !shell.taken.is_free(s, need.taken, within)) continue;
-    if (!keeps_straight(shell, s, need.straight, gap)) continue;
+    if (!(price < least) || !is_seat(shell, need, within, s)) continue;
     least = price;
     best = s;
   }

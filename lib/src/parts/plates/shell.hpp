@@ -53,6 +53,11 @@ struct SeatNeed {
   double taken = 0.0;     ///< half of what it takes up [m]
   double straight = 0.0;  ///< half of what has to be straight, but for the gap of frames [m]
 };
+/// @return whether a place is free and straight enough
+[[nodiscard]] bool is_seat(const Shell& shell, const SeatNeed& need, const Span& within, double s);
+inline constexpr int kSeats = 800;  ///< places at which seats are looked for
+/// @return the k-th of them, from 0 to kSeats [m]
+[[nodiscard]] double seat_place(const Span& within, int k);
 /// @param cost  of a place; the least is taken, of equals the first
 /// @return none where no place is free
 [[nodiscard]] std::optional<double> best_seat(const Shell& shell, const SeatNeed& need, const Span& within,

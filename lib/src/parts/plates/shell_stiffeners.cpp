@@ -5,12 +5,14 @@
 #include "parts/plates/frame_pieces.hpp"
 #include "parts/plates/shell.hpp"
 #include "parts/plates/shortfalls.hpp"
+#include "parts/plates/stiffener_row.hpp"
 #include "parts/shop/workshop_list.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace glissade::parts {
 namespace {
@@ -57,44 +59,65 @@ Frame turned(const Frame& place, double thickness) {
   return {place.origin + thickness * place.z, -1.0 * place.x, place.y, -1.0 * place.z};
 }
 
+/// Where stiffeners of a shell may stand.
+class ShellSeats {
+ public:
+  explicit ShellSeats(const Shell& shell) : shell_(shell), frames_(standing_frames(shell)) {
+    const double out = shell.options.flanges.gap + shell.options.stiffeners->width;
+    heights_ = {shell.lowest - out, shell.highest + (shell.ring ? out : 0.0)};
+    half_ = 0.5 * shell.options.stiffeners->thickness;
+  }
+
+  [[nodiscard]] StandingPlate plate(double s) const { return {frame_of(shell_, s), half_, heights_}; }
+
+  /// @param standing  those of units before
+  [[nodiscard]] StiffenerSeats in(const Span& unit, const std::vector<StandingPlate>& standing) const {
+    const Span room = between_frames(shell_, unit);
+    StiffenerSeats seats;
+    for (int k = 0; k <= kSeats; ++k) seats.places.push_back(seat_place(room, k));
+    seats.is_free = [this, room, &standing](double s) {
+      const StandingPlate here = plate(s);
+      return all_apart(here, frames_) && all_apart(here, standing) &&
+             is_seat(shell_, {half_ + kAside, half_}, room, s) && ring_at(shell_, s);
+    };
+    seats.beside = [this](double a, double b) {
+      return b - a >= least_apart(*shell_.options.stiffeners) && stand_apart(plate(a), plate(b));
+    };
+    return seats;
+  }
+
+ private:
+  const Shell& shell_;
+  std::vector<StandingPlate> frames_;
+  Span heights_;
+  double half_ = 0.0;
+};
+
 }  // namespace
 
 std::vector<StandingPlate> add_stiffeners(const Shell& shell) {
   if (!shell.options.stiffeners) return {};
   const StiffenerOptions& stiffener = *shell.options.stiffeners;
   const double half = 0.5 * stiffener.thickness;
-  const double out = shell.options.flanges.gap + stiffener.width;
-  const Span heights{shell.lowest - out, shell.highest + (shell.ring ? out : 0.0)};
-  const std::vector<StandingPlate> frames = standing_frames(shell);
+  const ShellSeats seats(shell);
   std::vector<StandingPlate> standing;
-  StiffenerPlaces places;
+  WideGaps gaps;
   for (const Span& unit : shell.units) {
-    const double whole = unit.to - unit.from;
-    const double gaps = std::ceil(whole / stiffener.spacing - 1e-9);
-    const Span room = between_frames(shell, unit);
-    for (double k = 1.0; k < gaps; k += 1.0) {
-      const double about = unit.from + whole * k / gaps;
-      places.ask(about);
-      const auto cost = [&](double s) {
-        const StandingPlate here{frame_of(shell, s), half, heights};
-        return all_apart(here, frames) && all_apart(here, standing) ? std::fabs(s - about) : kNoPlace;
-      };
-      const auto at = best_seat(shell, {half + kAside, half}, room, cost);
-      if (!at || std::fabs(*at - about) > 0.5 * whole / gaps) continue;
-      const auto ring = ring_at(shell, *at);
-      if (!ring) continue;
-      ShopPart part = cross_plate(shell, "stiffener", ring->region, stiffener.thickness, *at);
+    const std::vector<double> row = stiffener_row(unit, stiffener.spacing, seats.in(unit, standing));
+    gaps.add(unit, row, stiffener.spacing);
+    for (const double at : row) {
+      const Ring ring = ring_at(shell, at).value();
+      ShopPart part = cross_plate(shell, "stiffener", ring.region, stiffener.thickness, at);
       if (shell.ring) {
         part.name = "stiffener_half";
         part.places.push_back(turned(part.places.front(), stiffener.thickness));
       }
-      add_in_pieces(part, ring->line, false, shell.options, kFittingColour, shell.workshop);
-      shell.taken.add(*at - half, *at + half);
-      standing.push_back({frame_of(shell, *at), half, heights});
-      places.found();
+      add_in_pieces(part, ring.line, false, shell.options, kFittingColour, shell.workshop);
+      shell.taken.add(at - half, at + half);
+      standing.push_back(seats.plate(at));
     }
   }
-  places.tell_missing(shell.options, shell.workshop);
+  gaps.tell(shell.options, shell.workshop);
   return standing;
 }
 

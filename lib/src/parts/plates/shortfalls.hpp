@@ -3,28 +3,28 @@
 #include "glissade/parts/plate_options.hpp"
 #include "glissade/parts/shop_part.hpp"
 
+#include "parts/plates/plate_unit.hpp"
+
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace glissade::parts {
 
-/// Places along the track at which stiffeners are asked for, and those of them at which none stands.
-class StiffenerPlaces {
+/// @param least  that a row keeps to [m]
+/// @return a spacing that it keeps to, with some room: its places are looked for anew; "spacing: 1.34 m"
+[[nodiscard]] std::string spacing_that_does(double least);
+
+/// Gaps between stiffeners and the ends of their units that are wider than asked for.
+class WideGaps {
  public:
-  /// @param about  arc length [m]
-  void ask(double about) {
-    ++asked_;
-    missing_.push_back(about);
-  }
-  /// Of the last one that was asked for.
-  void found() { missing_.pop_back(); }
-  /// Says which of them find no place; nothing where all do.
-  void tell_missing(const PlateOptions& options, Workshop& workshop) const;
+  /// @param row  where stiffeners of the unit stand, ascending [m]
+  void add(const Span& unit, const std::vector<double>& row, double spacing);
+  /// Says which they are, and what to try; nothing where there are none.
+  void tell(const PlateOptions& options, Workshop& workshop) const;
 
  private:
-  std::size_t asked_ = 0;
-  std::vector<double> missing_;
+  std::vector<Span> gaps_;
 };
 
 /// Units of which nothing can be lifted by lugs.

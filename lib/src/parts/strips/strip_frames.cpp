@@ -72,8 +72,8 @@ std::vector<Vec2> outside_at(const StripJob& job, double lean, double s) {
 
 /// Of the uppermost bolts, from the ends of the chain on which they stand.
 double frame_edge(const std::vector<Vec2>& outside, const std::vector<Vec2>& chain, bool ring,
-                  const FlangeOptions& flange) {
-  const double below = below_top(flange);
+                  const FlangeOptions& flange, double rim) {
+  const double below = std::max(below_top(flange), rim);
   if (ring) return below;
   if (flange.slotted) {
     if (const auto along = along_to(chain, below)) return *along;
@@ -103,10 +103,12 @@ ShopPart frame_of(const StripJob& job, const std::vector<Vec2>& outside, FlangeS
     add_polygon(pattern.region.outline, inner);
   }
   const std::vector<Vec2> chain = at(flange.gap + 0.5 * flange.width);
+  const double rim = section.ring ? 0.0 : bolts_below_rim(job.options);
   drill_frame(
       job.options, of_joint,
       [&](const FlangeOptions& with) {
-        return along_chain(chain, section.ring, with.pitch, frame_edge(outside, chain, section.ring, with));
+        return along_chain(chain, section.ring, with.pitch,
+                           frame_edge(outside, chain, section.ring, with, rim));
       },
       pattern.region);
   if (!faults_of(pattern.region).empty()) {

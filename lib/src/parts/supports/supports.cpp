@@ -10,6 +10,7 @@
 #include "parts/plates/bar_pieces.hpp"
 #include "parts/plates/plate_joints.hpp"
 #include "parts/plates/plate_unit.hpp"
+#include "parts/plates/shortfalls.hpp"
 #include "parts/shop/bolts.hpp"
 #include "parts/shop/workshop_list.hpp"
 #include "parts/supports/ground.hpp"
@@ -217,14 +218,6 @@ double flattest_of(const ArcSpline& track, const Span& span) {
 }
 
 constexpr double kTold = 1e-3;  // taste: of what is wider than asked for [m]
-
-/// A spacing that a row keeps to, with some room: its places are looked for anew.
-/// @param least  without room [m]
-std::string spacing_that_does(double least) {
-  constexpr double kRoom = 20e-3;   // budget: two steps of the places that are looked at [m]
-  constexpr double kDigits = 0.01;  // taste: of what is told [m]
-  return "spacing: " + length_text(kDigits * std::ceil((least + kRoom) / kDigits), 6);
-}
 
 /// Says where trestles are farther apart than is asked for.
 void tell_wide_spans(const Trestles& all, const Shell& shell) {

@@ -2,15 +2,16 @@
 
 #include "glissade/core/math.hpp"
 
+#include "parts/plates/even_row.hpp"
 #include "parts/supports/side_view.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace glissade::parts {
 namespace {
@@ -157,73 +158,24 @@ Trestles all_standing(const TrestleSeats& seats) {
   return all;
 }
 
-/// What a row falls short of what is asked for, and what it takes.
-struct RowCost {
-  double excess = 0.0;    ///< sum of squares of what spans are wider than asked for
-  std::size_t count = 0;  ///< of trestles
-  double uneven = 0.0;    ///< sum of squares of spans
-
-  /// @param span  one more; an end that sticks out counts twice: the moment of its weight, w a^2/2, is that of a span, w l^2/8
-  [[nodiscard]] RowCost with(double span, double spacing) const {
-    constexpr double kSame = 1e-9;  // rounding [m]
-    const double more = span > spacing + kSame ? span - spacing : 0.0;
-    return {excess + more * more, count, uneven + span * span};
-  }
-  /// Two of them at least, where they have places.
-  [[nodiscard]] bool operator<(const RowCost& other) const {
-    return std::pair(count < 2, std::tuple(excess, count, uneven)) <
-           std::pair(other.count < 2, std::tuple(other.excess, other.count, other.uneven));
-  }
-};
-
-RowCost cost_of(const Trestles& row, double spacing, double length) {
-  RowCost cost = RowCost().with(2.0 * row.front().place.at, spacing);
-  for (std::size_t i = 1; i < row.size(); ++i)
-    cost = cost.with(row[i].place.at - row[i - 1].place.at, spacing);
-  return cost.with(2.0 * (length - row.back().place.at), spacing);
+RowTask task_of(const Trestles& all, const Shell& shell) {
+  const SupportOptions& supports = *shell.options.supports;
+  RowTask task;
+  for (const Standing& one : all) task.places.push_back(one.place.at);
+  task.to = shell.track.length();
+  task.spacing = supports.spacing;
+  // The moment of the weight of an end that sticks out, w a^2/2, is that of a span, w l^2/8.
+  task.end_weight = 2.0;
+  task.least = 2;
+  task.beside = [&](std::size_t a, std::size_t b) { return stand_beside(all[a], all[b], supports); };
+  return task;
 }
 
-/// Of all rows from these places that of the least cost.
-Trestles cheapest(const Trestles& all, const SupportOptions& supports, double length) {
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  // Of the rows that end with a trestle the cheapest one of one, and of more.
-  struct Way {
-    RowCost cost;
-    std::size_t from = kNone;
-  };
-  std::vector<Way> ways(all.size());
-  std::optional<Way> best;
-  std::size_t last = kNone;
-  const auto end_with = [&](std::size_t i, Way way) {
-    way.cost = way.cost.with(2.0 * (length - all[i].place.at), supports.spacing);
-    if (best && !(way.cost < best->cost)) return;
-    best = way;
-    last = i;
-  };
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double at = all[i].place.at;
-    Way first{RowCost().with(2.0 * at, supports.spacing), kNone};
-    first.cost.count = 1;
-    std::optional<Way> joined;
-    for (std::size_t k = 0; k < i; ++k) {
-      if (!stand_beside(all[k], all[i], supports)) continue;
-      Way one{ways[k].cost.with(at - all[k].place.at, supports.spacing), k};
-      ++one.cost.count;
-      if (!joined || one.cost < joined->cost) joined = one;
-    }
-    end_with(i, first);
-    if (joined) end_with(i, *joined);
-    // What goes on from here has two or more, either way.
-    const auto as_part = [](const Way& way) {
-      return std::tuple(way.cost.excess, way.cost.count, way.cost.uneven);
-    };
-    ways[i] = joined && as_part(*joined) < as_part(first) ? *joined : first;
-  }
-  Trestles row;
-  std::size_t from = best ? best->from : kNone;
-  if (last != kNone) row.push_back(all[last]);
-  for (; from != kNone; from = ways[from].from) row.insert(row.begin(), all[from]);
-  return row;
+bool keeps_to_spacing(const Trestles& row, const Shell& shell) {
+  if (row.empty()) return false;
+  std::vector<std::size_t> all(row.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return cost_of(task_of(row, shell), all).excess == 0.0;
 }
 
 }  // namespace
@@ -235,12 +187,14 @@ Trestles trestles_along(const Shell& shell) {
   const SideView view(shell);
   const TrestleSeats seats(shell, view);
   const Trestles even = evenly_standing(seats, gaps);
-  if (!even.empty() && cost_of(even, supports.spacing, length).excess == 0.0) return even;
+  if (keeps_to_spacing(even, shell)) return even;
   Trestles all = all_standing(seats);
   all.insert(all.end(), even.begin(), even.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const Standing& a, const Standing& b) { return a.place.at < b.place.at; });
-  return cheapest(all, supports, length);
+  Trestles row;
+  for (const std::size_t i : cheapest_row(task_of(all, shell))) row.push_back(all[i]);
+  return row;
 }
 
 }  // namespace glissade::parts

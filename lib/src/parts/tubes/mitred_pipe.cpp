@@ -362,10 +362,11 @@ ArcPath half_round(double inner, double outer, double side) {
 
 /// How far along the line of bolts, from its end, the uppermost one stands.
 double half_round_edge(const PipeJob& job, const FlangeOptions& flange, double pitch_radius) {
-  const double below = below_top(flange);
+  const double rim = bolts_below_rim(job.options);
+  const double below = std::max(below_top(flange), rim);
   const double turned = below - *job.side;
-  // Slots are upright, so that below the sides depth counts and not the way round.
-  if (!flange.slotted || !(turned > 0.0)) return below;
+  // Slots are upright and rims level, so that below the sides depth counts and not the way round.
+  if (!(flange.slotted || below == rim) || !(turned > 0.0)) return below;
   return *job.side + pitch_radius * math::asin(std::min(1.0, turned / pitch_radius));
 }
 
