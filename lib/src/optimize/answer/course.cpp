@@ -174,7 +174,11 @@ void Course::look_again(bool by_footholds) {
     is_hooked = best_->found->objective < known && is_optimum();
   }
   if (!kept() || stopped_) return;
-  const bool is_doubted = is_about_exit_speed() && nearly_stops(*best_->found);
+  best_ = searcher_.with_promises_tried(*std::move(best_));
+  stopped_ = best_->stopped;
+  if (stopped_) return;
+  const bool is_doubted = (is_about_exit_speed() && nearly_stops(*best_->found)) ||
+                          best_->ahead.finer_mesh_wins.value_or(0.0) > kDoubtfulPromise;
   if (!is_hooked && (by_footholds || !is_optimum() || is_doubted)) {
     best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
                          : searcher_.from_scattered(*std::move(best_));

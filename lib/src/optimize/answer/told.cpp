@@ -210,6 +210,15 @@ void tell_end(const Problem& problem, const OptimizeOptions& options, const Cour
                      " is looked for; give the free end a nearer bound, or an arc_length";
     return;
   }
+  if (converged && !is_exact && report.finer_mesh_wins.value_or(0.0) > kDoubtfulPromise) {
+    report.status = OptimizeStatus::feasible_not_converged;
+    report.message =
+        "every limit holds, but a finer mesh promises to win " +
+        rounded_text(100.0 * *report.finer_mesh_wins, 2) +
+        " %, and none that was tried did: a better track is likely; try bounds a little tighter, whose track "
+        "keeps these, too";
+    return;
+  }
   // Answers to neighbouring problems of the kind were out of order by up to 1.7e-3 (docs/optimization.md).
   const bool winds = converged && winds_at_cap(*course.best().problem, *course.best().found);
   if (winds) report.message += "; with bends elsewhere at the cap on the speed some 0.2 % may be left";

@@ -106,15 +106,22 @@ MeshTrack with_halved_near(const Found& found, const std::vector<bool>& limits) 
   return with_halved_pieces(track, found.z, halved);
 }
 
-MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z) {
+MeshTrack with_short_pieces_at(Ends ends, const Transcription& track, const Vector& z) {
   MeshTrack result{track.mesh(), z};
-  const auto last_width = [&] { return 1.0 - result.mesh.knots[result.mesh.knots.size() - 2]; };
-  while (last_width() > 4.0 * kShortest) {
-    std::vector<bool> halved(result.mesh.knots.size() - 1, false);
-    halved.back() = true;
+  for (;;) {
+    const Vector& knots = result.mesh.knots;
+    std::vector<bool> halved(knots.size() - 1, false);
+    bool any = false;
+    for (std::size_t i = 0; i < halved.size(); ++i) {
+      const double width = knots[i + 1] - knots[i];
+      const double off = std::min(1.0 - knots[i + 1], ends == Ends::both ? knots[i] : 1.0);
+      // Beyond a pair of knots at an end, too: a jump that lies there may want to be a bend.
+      halved[i] = width > 4.0 * kShortest && off < 0.5 * width;
+      any = any || halved[i];
+    }
+    if (!any) return result;
     result = with_halved_pieces(Transcription(result.mesh), result.z, halved);
   }
-  return result;
 }
 
 namespace {

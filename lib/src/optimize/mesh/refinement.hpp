@@ -26,8 +26,9 @@ struct MeshTrack {
 /// @param limits  one entry a limit of the problem
 [[nodiscard]] MeshTrack with_halved_near(const Found& found, const std::vector<bool>& limits);
 
-/// The same with pieces ever shorter towards the finish, each half as long as the one before.
-[[nodiscard]] MeshTrack with_short_pieces_at_finish(const Transcription& track, const Vector& z);
+enum class Ends { finish, both };
+/// The same with pieces ever shorter towards the ends, each half as long as the one before.
+[[nodiscard]] MeshTrack with_short_pieces_at(Ends ends, const Transcription& track, const Vector& z);
 
 /// The same with the knots around each jump of the curvature closer together: what the ramp between them costs falls faster than
 /// the square of its width. @return none where there are none

@@ -16,6 +16,13 @@ struct Ahead {
   Vector multipliers;  ///< of each limit on a finer mesh, as in Outlook; none if not looked at
 };
 
+/// Of the objective, that a finer mesh promises to win: more is not believed.
+inline constexpr double kMostPromised = 0.01;  // taste: twice what any promised that kept part of it
+/// More than that at the end of a search is doubted: no track of 900 random problems is left with as much.
+inline constexpr double kDoubtfulPromise = 2e-3;  // measured
+/// What is done where a finer mesh promises more than that.
+enum class Promises { left, tried };
+
 /// One way past the keep-outs, searched to its end.
 struct Candidate {
   std::shared_ptr<ScaledProblem> problem;

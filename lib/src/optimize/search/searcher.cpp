@@ -353,9 +353,9 @@ bool Searcher::is_behind(const Found& found, bool on_finest) const {
   return found.objective > *to_beat_ + share * std::fabs(*to_beat_);
 }
 
-void Searcher::settle(Candidate& candidate, Found begun) {
+void Searcher::settle(Candidate& candidate, Found begun, Promises promises) {
   const ScaledProblem& problem = *candidate.rough;
-  Settling settling(problem, descents_);
+  Settling settling(problem, descents_, promises);
   Settled track = settling.settled(std::move(begun));
   for (const Found& stage : track.on_the_way) remember(candidate, stage);
   const auto mend_on = [&](Candidate& end_of, Found end) {

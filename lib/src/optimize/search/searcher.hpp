@@ -80,6 +80,9 @@ class Searcher {
   /// The search once more from where it ended, on meshes of other sizes laid for that track, until an optimum is found.
   /// @param for_better  goes on from there as long as that pays
   [[nodiscard]] Candidate on_other_meshes(Candidate best, bool for_better);
+  /// Where a finer mesh promises so much that it is not believed: the better one of what `best` is and of what finer meshes lead to as long as
+  /// they keep part of it.
+  [[nodiscard]] Candidate with_promises_tried(Candidate best);
   /// What a candidate's promising track leads to on other meshes.
   [[nodiscard]] Candidate from_promising(const Candidate& known);
   /// Where a body at rest turns down at once: the same with bends ever tighter there, until that wins nothing.
@@ -135,7 +138,7 @@ class Searcher {
   /// Finer meshes, then tightening until the referee is content.
   void refine(Candidate& candidate, Found found, bool unlimited);
   /// What follows on the finest mesh of pieces, and its end: as Settling, then Mending.
-  void settle(Candidate& candidate, Found begun);
+  void settle(Candidate& candidate, Found begun, Promises promises = Promises::left);
   /// Meshes of more and more pieces, the last of them only while the places at which limits change over move, and it
   /// pays.
   /// @param rough  of the meshes before those of all pieces

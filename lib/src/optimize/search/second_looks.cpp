@@ -63,6 +63,22 @@ Candidate Searcher::from_scattered(Candidate best) {
   return best;
 }
 
+Candidate Searcher::with_promises_tried(Candidate best) {
+  constexpr int kMostRounds = 4;  // budget
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool is_doubtful = best.ahead.finer_mesh_wins.value_or(0.0) > kDoubtfulPromise;
+    if (best.stopped || !best.found || !is_doubtful) break;
+    const double before = best.found->objective;
+    Candidate end = begun_again(best);
+    settle(end, begun_with(best), Promises::tried);
+    const bool stopped = end.stopped;
+    if (end.kept && is_ahead(end, best, options_.tolerance)) best = std::move(end);
+    best.stopped = stopped;
+    if (!(best.found->objective < before)) break;
+  }
+  return best;
+}
+
 namespace {
 
 /// Limits that keep a body from being fast.

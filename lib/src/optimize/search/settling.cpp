@@ -31,7 +31,7 @@ Settled Settling::settled(Found found) {
   if (!found.stopped) found = with_far_jumps_moved(std::move(found));
   if (!found.stopped) found = followed(std::move(found));
   track.on_the_way.push_back(found);
-  if (!found.stopped) found = bent_at_finish(std::move(found));
+  if (!found.stopped) found = bent_at_ends(std::move(found));
   if (!found.stopped) found = halved(std::move(found), track.ahead);
   track.on_the_way.push_back(found);
   track.found = std::move(found);
@@ -82,12 +82,14 @@ Found Settling::followed(Found found) {
   return found;
 }
 
-Found Settling::bent_at_finish(Found found) {
+Found Settling::bent_at_ends(Found found) {
   constexpr double kPays = 1e-6;  // accuracy: that of a time
-  if (problem_.speed_weight == 0.0 || problem_.lead_out > 0.0 || is_smooth(problem_) ||
-      !descents_.is_optimum(found))
-    return found;
-  const MeshTrack finer = with_short_pieces_at_finish(*found.track, found.z);
+  // Where speed counts a short bend may carry less at the finish; a body whose centre is high has a shorter way over bends at either end.
+  const bool is_high = problem_.rides[problem_.objective_ride].height > 0.0;
+  const bool may_pay = is_high || (problem_.speed_weight != 0.0 && problem_.lead_out == 0.0);
+  if (!may_pay || is_smooth(problem_) || !descents_.is_optimum(found)) return found;
+  const Ends ends = is_high && !starts_with_crest(problem_) ? Ends::both : Ends::finish;
+  const MeshTrack finer = with_short_pieces_at(ends, *found.track, found.z);
   const Outlook outlook =
       look_ahead(problem_, finer.mesh, finer.z, descents_.margins(), control_, found, RowsAhead::near);
   if (!(outlook.won > kPays * std::fabs(found.objective))) return found;
@@ -122,19 +124,21 @@ Found Settling::halved(Found found, Ahead& ahead) {
     const double lost_at_most = smooth ? kLostAtMost : kLostAmongJumps;
     const bool breaks = left.lost > lost_at_most * std::fabs(found.objective);
     if (!breaks && left.objective <= left_at_most * std::fabs(found.objective)) break;
-    // A finer mesh never has so much left: where a program promises it, its step leads away from the track.
-    constexpr double kMost = 0.01;  // taste: twice what any promised that kept part of it
-    if (left.objective > kMost * std::fabs(found.objective)) break;
+    // A finer mesh hardly ever has so much left: where a program promises it, its step leads away from the track.
+    const bool is_doubtful = left.objective > kMostPromised * std::fabs(found.objective);
+    if (is_doubtful && promises_ == Promises::left) break;
     if (found.track->mesh().knots.size() > kMostPieces) break;
     // A few pieces that promise the most of it, and win nothing, are not where it is to be won.
     const bool spread = smooth && found.track->mesh().knots.size() <= kMostSpread &&
                         left.objective > kSpread * std::max(before, kTold * std::fabs(found.objective));
     before = left.objective;
-    const MeshTrack finer = breaks || spread ? with_all_halved(*found.track, found.z)
-                                             : with_halved_pieces(*found.track, found.z, worth_halving(left));
+    const MeshTrack finer = breaks || spread || is_doubtful
+                                ? with_all_halved(*found.track, found.z)
+                                : with_halved_pieces(*found.track, found.z, worth_halving(left));
     descents_.aim_at_optimum(0);
     Found next = descents_.minimised(problem_, finer.mesh, finer.z, &found);
     if (next.stopped || next.residual > options_.tolerance || !next.feasible(options_.limit_tolerance)) break;
+    if (is_doubtful && !(found.objective - next.objective > kKept * left.objective)) break;
     next = followed(std::move(next));
     const double won = found.objective - next.objective;
     found = std::move(next);

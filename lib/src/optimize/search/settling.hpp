@@ -24,8 +24,12 @@ struct Settled {
 /// follows what binds. Each step leads from optimum to optimum, and leaves a track as it is where the next one is none.
 class Settling {
  public:
-  Settling(const ScaledProblem& problem, Descents& descents)
-      : problem_(problem), descents_(descents), options_(descents.options()), control_(descents.control()) {}
+  Settling(const ScaledProblem& problem, Descents& descents, Promises promises = Promises::left)
+      : problem_(problem),
+        descents_(descents),
+        options_(descents.options()),
+        control_(descents.control()),
+        promises_(promises) {}
 
   /// All the steps.
   [[nodiscard]] Settled settled(Found found);
@@ -39,9 +43,9 @@ class Settling {
  private:
   /// The same, jumps of the curvature that lie far from where they belong brought there.
   [[nodiscard]] Found with_far_jumps_moved(Found found);
-  /// Where exit speed counts a last bend over a crest, where the track carries less, may win it: too short a bend for the
-  /// usual pieces to tell.
-  [[nodiscard]] Found bent_at_finish(Found found);
+  /// The same with bends at the ends that are too short for the usual pieces to tell. Where exit speed counts a last one over a crest,
+  /// where the track carries less, may win it; the centre of a body that is high has a shorter way over bends at either end.
+  [[nodiscard]] Found bent_at_ends(Found found);
   /// Pieces are halved where a finer mesh has much left to win.
   /// @param ahead  of the last mesh looked at, whether the track stays on it or not
   [[nodiscard]] Found halved(Found found, Ahead& ahead);
@@ -57,6 +61,7 @@ class Settling {
   Descents& descents_;
   const OptimizeOptions& options_;
   SearchControl& control_;
+  Promises promises_;
 };
 
 }  // namespace glissade::optimizer
