@@ -61,7 +61,7 @@ inline double violation(const Problem& problem, const std::vector<double>& z) {
 /// A (1+1) evolution: random steps, kept where they pay, of a size that follows its success.
 inline double least_found(const Problem& problem, testing::Random& random) {
   double least = 10.0;
-  for (int beginning = 0; beginning < 3; ++beginning) {
+  for (int beginning = 0; beginning < (testing::thorough() ? 3 : 1); ++beginning) {
     std::vector<double> z(static_cast<std::size_t>(3 + kPiecesOfSearch), 0.0);
     const double mean = std::atan2(problem.endpoints.drop, problem.endpoints.run);
     z[0] = mean + random.between(-0.2, 0.5);

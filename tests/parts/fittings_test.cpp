@@ -326,6 +326,27 @@ TEST_CASE("lugs of a channel that are not plumb above the centre of gravity are 
             .ends_with(" along the track, beside its centre of gravity."));
 }
 
+TEST_CASE("units without frames are told to be welded end to end, of every kind of plates") {
+  PlateOptions options;
+  options.split.longest = 2.9;
+  const auto noted = [&](const WorkshopBuild& build) {
+    const auto& notes = build.workshop.notes;
+    return std::count(notes.begin(), notes.end(),
+                      "Without frames units are welded end to end, all round: 2 joints.");
+  };
+  CHECK(noted(plates(chute(), options)) == 0);
+  options.flanges.wanted = false;
+  CHECK(noted(plates(chute(), options)) == 1);
+  CHECK(noted(plates_of(chute(), v_channel(), options)) == 1);
+  options.round = RoundMake::mitred;
+  CHECK(noted(plates_of(chute(), section::HalfPipe{0.4, 0.05, 4e-3}, options)) == 1);
+  options.split.longest.reset();
+  options.split.sheet = {12.0, 2.0};
+  const WorkshopBuild whole = plates(chute(), options);
+  CHECK(whole.joints.size() == 2);
+  CHECK(noted(whole) == 0);
+}
+
 TEST_CASE("covers and rims: as many holes in one as in the other; lids cover their openings") {
   const WorkshopBuild build = plates(chute(), with_everything());
   std::size_t rim_holes = 0;

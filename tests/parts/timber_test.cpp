@@ -469,6 +469,11 @@ TEST_CASE(
       }
     }
     CHECK(made == Approx(deck).epsilon(1e-6));  // the track's arcs turn by that to rounding
+    const double ripped = (overall - gap * (count - 1)) / count;
+    const std::string note = "Boards of 120 mm are ripped to " + length_text(ripped, 5) + ": " +
+                             std::to_string(count) + " of them lie side by side.";
+    const auto& notes = build.workshop.notes;
+    CHECK(std::find(notes.begin(), notes.end(), note) != notes.end());
     CHECK(across.size() == static_cast<std::size_t>(count));
     const auto checks = testing::shop_checks(build.workshop, "timber");
     CHECK(testing::check_of(checks, "timber.seam-stagger").verdict == ShopVerdict::pass);

@@ -268,7 +268,7 @@ TEST_CASE("what a search of any objective found is solved and judged the same wh
       {edge + "30 deg}",
        high + "waypoints: [[-5 m, 1.6 m]], half_planes: [{line: [[-40 m, -1 m], [1 m, -1 m]], stay: above}], "
               "stay_above: [{line: [[-40 m, -2 m], [1 m, -2 m]]}], objective: least_drop"}};
-  constexpr const char* kSlow[] = {"least_curvature_rate", "least_peak_wear", "even_speed"};
+  constexpr const char* kSlow[] = {"least_curvature_rate", "least_peak_wear", "even_speed", "half_planes"};
   const TempDir directory;
   for (const Sought& sought : all) {
     INFO(sought.track << ", " << sought.limits);

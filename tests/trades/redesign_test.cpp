@@ -518,7 +518,7 @@ TEST_CASE(
   testing::Random random = testing::seeded_random();
   INFO("GLISSADE_SEED=" << random.seed());
   const Design design = garmisch_design();
-  for (int i = 0; i < (testing::thorough() ? 20 : 2); ++i) {
+  for (int i = 0; i < (testing::thorough() ? 20 : 1); ++i) {
     Design changed = design;
     changed.body.friction = Friction::from_coefficient(random.between(0.0, 0.1));
     changed.body.head_wind = random.between(0.0, 5.0);
@@ -696,8 +696,8 @@ TEST_CASE("a redesign that runs out of time says so, and is no worse than what i
   const Design design = garmisch_design();
   for (const RedesignGoal goal : {RedesignGoal::least_drop, RedesignGoal::least_length,
                                   RedesignGoal::least_load, RedesignGoal::least_curvature_rate}) {
-    std::vector<double> budgets = {1e-6, 0.03};
-    if (testing::thorough()) budgets.insert(budgets.end(), {1e-3, 0.01, 0.27, 0.3, 0.34});
+    std::vector<double> budgets = {1e-6};
+    if (testing::thorough()) budgets.insert(budgets.end(), {1e-3, 0.01, 0.03, 0.27, 0.3, 0.34});
     for (const double budget : budgets) {
       INFO(word(goal) << ", " << budget << " s");
       RedesignOptions options;

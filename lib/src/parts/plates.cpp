@@ -7,6 +7,7 @@
 #include "glissade/core/math.hpp"
 #include "glissade/core/number_text.hpp"
 
+#include "core/counted.hpp"
 #include "parts/bodies/as_built.hpp"
 #include "parts/plates/angle_frames.hpp"
 #include "parts/plates/channel_shell.hpp"
@@ -469,6 +470,13 @@ double widest_of(const section::Measures& measures, const PlateOptions& options)
   return section->widths ? widest + section->widths->widest() - section->widths->narrowest() : widest;
 }
 
+/// Says how units are joined where no frames are.
+void note_welded_joints(const PlateOptions& options, WorkshopBuild& build) {
+  if (options.flanges.wanted || build.joints.size() < 3) return;
+  build.workshop.notes.push_back("Without frames units are welded end to end, all round: " +
+                                 core::counted(build.joints.size() - 2, "joint") + ".");
+}
+
 WorkshopBuild make_section(const Centerline& track, const section::Measures& measures,
                            const MasterCurveOptions& fit, const PlateOptions& options,
                            const Placement& placement, const Body& body, double gravity) {
@@ -480,6 +488,7 @@ WorkshopBuild make_section(const Centerline& track, const section::Measures& mea
       });
   build.master = std::move(master);
   require_light(build.workshop, options.split);
+  note_welded_joints(options, build);
   return build;
 }
 
@@ -497,6 +506,7 @@ WorkshopBuild make_plates(const Centerline& track, const ChannelMeasures& channe
         return make_channel(track, channel, fit, with, placement, body, gravity);
       });
   require_light(build.workshop, options.split);
+  note_welded_joints(options, build);
   return build;
 }
 

@@ -391,7 +391,7 @@ export: [stl]
   });
 });
 
-describe("a body that is no point, on a site far from its origin, over a range of friction", () => {
+describe("a body that is no point, on a site far from its origin, over a range of friction", { skip: !process.env.CI && "takes seconds: in continuous integration" }, () => {
   const design = `glissade: 1
 name: Site
 track:
@@ -592,7 +592,7 @@ export: [stl]
   });
 });
 
-describe("a rolling ball", () => {
+describe("a rolling ball", { skip: !process.env.CI && "takes seconds: in continuous integration" }, () => {
   const design = `glissade: 1
 name: Ball
 track: {start: {x: 0 m, z: 120 mm}, finish: {x: 200 mm, z: 0 m}}
@@ -641,7 +641,7 @@ export: [stl]
   });
 });
 
-describe("gates", () => {
+describe("gates", { skip: !process.env.CI && "takes seconds: in continuous integration" }, () => {
   test("save their charts as drawings and pictures", async () => {
     const { page, complaints } = await open(plain, build(path.join(designs, "hills/kulm_hs235.yaml")).file, SMALL);
     for (const chart of ["Speed at the measuring place", "Highest normal load"]) {

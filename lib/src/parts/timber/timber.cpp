@@ -75,6 +75,12 @@ std::string deck_name(const TimberJob& job, std::size_t set, std::size_t row) {
 
 double add_deck(const TimberJob& job, const std::vector<std::vector<DeckRow>>& rows, Workshop& workshop) {
   const double width = job.strip_width();
+  constexpr double kNoted = 0.5e-3;  // taste: what a saw takes off anyway [m]
+  if (const auto& boards = job.options.deck.boards; boards && boards->width - width > kNoted) {
+    workshop.notes.push_back("Boards of " + length_text(boards->width) + " are ripped to " +
+                             length_text(width, 5) + ": " + std::to_string(job.strips()) +
+                             " of them lie side by side.");
+  }
   double volume = 0.0;
   for (std::size_t set = 0; set < rows.size(); ++set) {
     const double top = -job.layer() * static_cast<double>(set / job.sets_per_layer());
