@@ -178,7 +178,7 @@ void Course::look_again(bool by_footholds) {
   stopped_ = best_->stopped;
   if (stopped_) return;
   const bool is_doubted = (is_about_exit_speed() && nearly_stops(*best_->found)) ||
-                          best_->ahead.finer_mesh_wins.value_or(0.0) > kDoubtfulPromise;
+                          promises_too_much(*best_->problem, best_->ahead.finer_mesh_wins.value_or(0.0));
   if (!is_hooked && (by_footholds || !is_optimum() || is_doubted)) {
     best_ = by_footholds ? searcher_.from_loose_caps(*std::move(best_))
                          : searcher_.from_scattered(*std::move(best_));

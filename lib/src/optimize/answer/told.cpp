@@ -210,7 +210,8 @@ void tell_end(const Problem& problem, const OptimizeOptions& options, const Cour
                      " is looked for; give the free end a nearer bound, or an arc_length";
     return;
   }
-  if (converged && !is_exact && report.finer_mesh_wins.value_or(0.0) > kDoubtfulPromise) {
+  if (converged && !is_exact &&
+      promises_too_much(*course.best().problem, report.finer_mesh_wins.value_or(0.0))) {
     report.status = OptimizeStatus::feasible_not_converged;
     report.message =
         "every limit holds, but a finer mesh promises to win " +

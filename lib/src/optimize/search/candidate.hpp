@@ -18,8 +18,14 @@ struct Ahead {
 
 /// Of the objective, that a finer mesh promises to win: more is not believed.
 inline constexpr double kMostPromised = 0.01;  // taste: twice what any promised that kept part of it
-/// More than that at the end of a search is doubted: no track of 900 random problems is left with as much.
-inline constexpr double kDoubtfulPromise = 2e-3;  // measured
+/// Whether so much of it is promised at the end of a search that this is doubted. Of a sum of unlike things, and of an integral that may be
+/// next to none, no share tells.
+/// @param share  of the objective
+[[nodiscard]] inline bool promises_too_much(const ScaledProblem& problem, double share) {
+  constexpr double kMost = 2e-3;  // measured: no track of 900 random problems is left with as much
+  const bool is_sum = problem.time_weight != 0.0 && problem.speed_weight != 0.0;
+  return share > kMost && !is_sum && problem.rides.front().even_speed == 0.0;
+}
 /// What is done where a finer mesh promises more than that.
 enum class Promises { left, tried };
 

@@ -66,8 +66,8 @@ Candidate Searcher::from_scattered(Candidate best) {
 Candidate Searcher::with_promises_tried(Candidate best) {
   constexpr int kMostRounds = 4;  // budget
   for (int round = 0; round < kMostRounds; ++round) {
-    const bool is_doubtful = best.ahead.finer_mesh_wins.value_or(0.0) > kDoubtfulPromise;
-    if (best.stopped || !best.found || !is_doubtful) break;
+    const double promised = best.ahead.finer_mesh_wins.value_or(0.0);
+    if (best.stopped || !best.found || !promises_too_much(*best.problem, promised)) break;
     const double before = best.found->objective;
     Candidate end = begun_again(best);
     settle(end, begun_with(best), Promises::tried);
