@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -34,6 +33,33 @@ std::optional<double> nearest_to(double about, const StiffenerSeats& seats) {
   return *first;
 }
 
+/// The last free place between a free one and one that is not.
+double edge_of_free(double free, double taken, const StiffenerSeats& seats) {
+  constexpr double kExact = 1e-6;  // accuracy: a hundredth of what a shop tells apart [m]
+  while (std::fabs(taken - free) > kExact) {
+    const double middle = 0.5 * (free + taken);
+    (seats.is_free(middle) ? free : taken) = middle;
+  }
+  return free;
+}
+
+/// All free places that are looked at, and those where free stretches end.
+std::vector<double> free_places(const StiffenerSeats& seats) {
+  std::vector<double> free;
+  bool was_free = false;
+  for (std::size_t i = 0; i < seats.places.size(); ++i) {
+    const double here = seats.places[i];
+    const bool is_free = seats.is_free(here);
+    if (seats.anywhere && i > 0 && is_free != was_free) {
+      const double before = seats.places[i - 1];
+      free.push_back(is_free ? edge_of_free(here, before, seats) : edge_of_free(before, here, seats));
+    }
+    if (is_free) free.push_back(here);
+    was_free = is_free;
+  }
+  return free;
+}
+
 /// Those nearest to so many even gaps; one that would stand in the way of the one before it is left out.
 std::vector<double> nearest_to_even(const Span& unit, double gaps, const StiffenerSeats& seats) {
   std::vector<double> row;
@@ -53,8 +79,8 @@ std::vector<double> stiffener_row(const Span& unit, double spacing, const Stiffe
   std::vector<std::size_t> whole(even.size());
   std::iota(whole.begin(), whole.end(), std::size_t{0});
   if (!even.empty() && cost_of(task_of(unit, spacing, even), whole).excess == 0.0) return even;
-  std::vector<double> places = even;
-  std::copy_if(seats.places.begin(), seats.places.end(), std::back_inserter(places), seats.is_free);
+  std::vector<double> places = free_places(seats);
+  places.insert(places.end(), even.begin(), even.end());
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
   RowTask task = task_of(unit, spacing, std::move(places));
