@@ -213,9 +213,7 @@ TEST_CASE("laws: with one limit more on its end slopes no track of a high body i
   CHECK(held > 120);
 }
 
-TEST_CASE(
-    "laws: where a high body turns down at once a tighter radius is not faster, or its track is told as "
-    "doubtful") {
+TEST_CASE("laws: where a high body turns down at once a tighter radius is not faster") {
   if (!testing::thorough()) return;  // some seconds
   // A corner at the start promises much from mesh to mesh: 1.3567 s was told as optimal for 2.779 m, where 1.2857 s do.
   Problem tall =

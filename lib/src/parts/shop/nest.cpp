@@ -296,7 +296,7 @@ void lay_group(std::vector<Piece>& pieces, const Workshop& workshop, const NestS
   for (SheetInWork& sheet : sheets) done.push_back(std::move(sheet.sheet));
 }
 
-/// @return "nest_S235_4mm_1_of_2"
+/// @return a thickness as names of sheets have it [mm]
 std::string shown(double thickness) {
   return rounded_text(core::kMillimetres * thickness, 6);
 }
@@ -306,6 +306,7 @@ bool are_of_one_stock(const NestedSheet& sheet, const NestedSheet& other) {
   return other.material == sheet.material && shown(other.thickness) == shown(sheet.thickness);
 }
 
+/// @return "nest_S235_4mm_1_of_2"
 std::string name_of(const std::vector<NestedSheet>& sheets, std::size_t index) {
   const NestedSheet& sheet = sheets[index];
   const auto alike = [&](const NestedSheet& other) { return are_of_one_stock(sheet, other); };
